@@ -1,4 +1,4 @@
-"""moyai: how moored floating and flexible coastal structures answer waves and currents.
+"""moyai: how moored floating and flexible coastal structures respond to waves and currents.
 
 Five calls lead from nothing to a report, each also a command (``moyai run`` does the middle ones together):
 

@@ -20,6 +20,8 @@ TALKERS = {"cli", "app"}
 ERRORS = {"InputError", "ConvergenceError", "MoyaiError"}
 #: Blocks that only case files have; a key in degrees is one of theirs too.
 OF_CASE_FILES = re.compile(r"^(structure|site|analyses|assess|display)\.|\w_deg\b")
+#: A path of keys of a case file within a sentence.
+PATH_OF_KEYS = re.compile(r"\b(structure|site|settings|analyses|assess|display)\.[a-z_]+|\b[a-z]\w*_deg\b")
 
 
 @dataclass(frozen=True)
@@ -68,8 +70,19 @@ def _imported(nodes: list[ast.AST], package: list[str]) -> Iterator[str]:
             yield from (".".join([*stem, alias.name]) for alias in node.names)
 
 
+def _descriptions(nodes: list[ast.AST]) -> set[int]:
+    """Return what stands as a statement of its own: descriptions, which no user of a case file reads."""
+    return {id(node.value) for node in nodes if isinstance(node, ast.Expr)}
+
+
 def _keys_of_files(nodes: list[ast.AST]) -> Iterator[str]:
-    """Give the errors that name a path or a key of a case file."""
+    """Give the errors that name a path or a key of a case file, and the sentences that name a path."""
+    descriptions = _descriptions(nodes)
+    for node in nodes:
+        if not isinstance(node, ast.Constant) or not isinstance(node.value, str) or id(node) in descriptions:
+            continue
+        if " " in node.value and (found := PATH_OF_KEYS.search(node.value)):
+            yield f"line {node.lineno}: the sentence names the key '{found[0]}'"
     for node in nodes:
         if not isinstance(node, ast.Call) or called_name(node) not in ERRORS:
             continue

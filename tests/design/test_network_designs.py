@@ -237,7 +237,7 @@ def test_a_chain_that_goes_slack_on_the_bed_is_not_called_converged():
 
 
 @pytest.mark.slow
-def test_an_event_by_itself_is_worth_what_the_whole_run_is(monkeypatch):
+def test_an_event_by_itself_gives_what_the_whole_run_gives(monkeypatch):
     """The highest tension run again alone, with half the step and twice the bars, against the whole run made again."""
     from moyai.structures.network import dynamics, refinement
 

@@ -40,7 +40,7 @@ def test_mistakes_of_the_curtain_tutorial_are_told(tmp_path):
     small = case.replace("buoyancy: 980 N/m", "buoyancy: 500 N/m").replace("speed: 0.2 m/s", "speed: 0.6 m/s")
     small = small.replace("line_length: 30 m", "line_length: 10 m")
     file.write_text(small, encoding="utf-8")
-    with pytest.raises(CaseError, match=r"drowns the floats.*less than 0\.\d+ m/s"):
+    with pytest.raises(CaseError, match=r"submerges the floats.*less than 0\.\d+ m/s"):
         load_case(file)
 
 

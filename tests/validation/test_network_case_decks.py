@@ -29,7 +29,7 @@ def test_towed_net_of_twenty_by_twenty():
     assert network_cases.net_peak(20) == pytest.approx(120.0, rel=5e-3)
 
 
-def test_the_peak_says_what_it_is_worth():
+def test_the_peak_has_its_uncertainty():
     text = network_cases.SNAP.replace("skip: 8 s", "skip: 8 s, sensitivity: true")
     summary = network_cases.run_text(text).tree["SWL/dynamic"].to_dataset()
     error = float(summary["discretisation_error"][0])

@@ -24,7 +24,7 @@ def test_the_tutorial_of_networks_runs(tmp_path, monkeypatch, capsys):
         exec(compile(block, PAGE.name, "exec"), scope)
     said = capsys.readouterr().out
     assert "converged" in said
-    assert re.search(r"peak \d+\.\d+ kN, worth \+-\d", said)
+    assert re.search(r"peak \d+\.\d+ kN, uncertainty \+-\d", said)
     assert "natural periods" in said
     assert (tmp_path / "buoy-report" / "report.html").stat().st_size > 1e5
     assert scope["error"] < 0.1

@@ -7,16 +7,16 @@ import math
 
 import numpy as np
 import pytest
-from scipy.special import iv, kv
 
 from moyai.potential.thin_plate import Plate
 from moyai.potential.thin_plate_waves import solve_plate_waves
 from moyai.sea.water import Water
+from moyai.validation.thin_plates import CASES, ursell_barrier
 
 
-def ursell(ka):
-    common = math.pi * iv(1, ka) + 1j * kv(1, ka)
-    return math.pi * iv(1, ka) / common, 1j * kv(1, ka) / common
+@pytest.mark.parametrize("case", [case for case in CASES if case.source.startswith("Ursell (1947)")])
+def test_the_case_of_the_list(case):
+    assert case.error(case.compute()) <= case.tolerance
 
 
 @pytest.mark.slow
@@ -28,7 +28,7 @@ def test_reflection_and_transmission(seed):
     found = solve_plate_waves(
         Plate((x, 0.0), (x, -draught)), Water(math.inf, 1025.0, 9.81), np.sqrt(9.81 * ka / draught), accuracy=1e-5
     )
-    reflected, transmitted = ursell(ka)
+    reflected, transmitted = ursell_barrier(ka)
     turn = np.exp(2j * ka / draught * x)
     assert np.abs(found.reflection[:, 0] - reflected * turn).max() < 1e-5
     assert np.abs(found.reflection[:, 1] - reflected / turn).max() < 1e-5
@@ -38,4 +38,4 @@ def test_reflection_and_transmission(seed):
 def test_a_barrier_in_water_of_many_draughts_is_in_deep_water():
     ka = np.array([0.3, 1.0, 3.0])
     found = solve_plate_waves(Plate((0, 0), (0, -1)), Water(40.0, 1025.0, 9.81), np.sqrt(9.81 * ka), accuracy=1e-5)
-    assert np.abs(found.reflection[:, 0] - ursell(ka)[0]).max() < 1e-3
+    assert np.abs(found.reflection[:, 0] - ursell_barrier(ka)[0]).max() < 1e-3

@@ -11,44 +11,37 @@ from moyai.potential.modes import rigid_modes
 from moyai.potential.multipole_circle import half_immersed_circle, submerged_circle
 from moyai.potential.solver import solve
 from moyai.sea.water import Water
+from moyai.validation.potential import CASES, half_circle
 
 GRAVITY = 9.81
 RADIUS = 1.3
+OF_THE_LIST = [case for case in CASES if case.name.startswith("potential: half circle")]
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize(
-    "relative", [0.05, 0.6, 1.7, 6.0, *(pytest.param(k, marks=pytest.mark.slow) for k in (0.25, 1.0, 3.0))]
-)
+@pytest.mark.parametrize("case", OF_THE_LIST, ids=[case.name for case in OF_THE_LIST])
+def test_cases_of_the_list(case):
+    assert case.error(case.compute()) <= case.tolerance
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("relative", [0.05, 0.25, 0.6, 1.0, 1.7, 3.0, 6.0])
 def test_half_immersed_circle_against_multipoles(relative):
     """Default accuracy: a thousandth; the expansion itself is good to ten digits."""
-    omega = math.sqrt(relative * GRAVITY / RADIUS)
-    water = Water(math.inf, 1000.0, GRAVITY)
-    solution = solve(shapes.circle(RADIUS).immersed(RADIUS), water, [omega], modes=rigid_modes((0.0, 0.0)))
-    unit = 1000.0 * math.pi * RADIUS**2 / 2.0
+    mass, damping, wave = half_circle(relative)
     for index, mode in enumerate(("sway", "heave")):
         exact = half_immersed_circle(relative, mode)
-        assert solution.added_mass[0, index, index] / unit == pytest.approx(exact.added_mass, rel=2e-5)
-        damping = solution.radiation_damping[0, index, index] / (unit * omega)
-        assert damping == pytest.approx(exact.radiation_damping, rel=2e-4)
-        ratio = np.abs(solution.radiated_wave[0, index]) * omega
-        assert ratio == pytest.approx(exact.wave_ratio, rel=1e-4)
+        assert mass[index] == pytest.approx(exact.added_mass, rel=2e-5)
+        assert damping[index] == pytest.approx(exact.radiation_damping, rel=2e-4)
+        assert wave[index] == pytest.approx(exact.wave_ratio, rel=1e-4)
 
 
 def test_half_immersed_circle_with_more_accuracy_asked():
-    relative = 1.1
-    omega = math.sqrt(relative * GRAVITY / RADIUS)
-    water = Water(math.inf, 1000.0, GRAVITY)
-    solution = solve(
-        shapes.circle(RADIUS).immersed(RADIUS), water, [omega], modes=rigid_modes((0.0, 0.0)), accuracy=1e-7
-    )
-    unit = 1000.0 * math.pi * RADIUS**2 / 2.0
+    mass, damping, _ = half_circle(1.1, accuracy=1e-7)
     for index, mode in enumerate(("sway", "heave")):
-        exact = half_immersed_circle(relative, mode)
-        assert solution.added_mass[0, index, index] / unit == pytest.approx(exact.added_mass, rel=1e-8)
-        assert solution.radiation_damping[0, index, index] / (unit * omega) == pytest.approx(
-            exact.radiation_damping, rel=1e-7
-        )
+        exact = half_immersed_circle(1.1, mode)
+        assert mass[index] == pytest.approx(exact.added_mass, rel=1e-8)
+        assert damping[index] == pytest.approx(exact.radiation_damping, rel=1e-7)
 
 
 @pytest.mark.parametrize("submergence", [1.05, 1.25, 2.0, 4.0])

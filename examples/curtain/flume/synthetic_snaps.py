@@ -41,7 +41,7 @@ class MadeRecord:
     tension: Array
     #: Peak of the sum above the drag level [N].
     impact: float
-    #: Intervals in which the cables carry nothing [s].
+    #: Intervals in which the cables have no tension [s].
     unloaded: tuple[tuple[float, float], ...]
     #: Interval that holds snap and plateau [s].
     window: tuple[float, float]

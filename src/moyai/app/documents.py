@@ -183,7 +183,7 @@ class Documents:
         path, own = self._folder.inside(name or document.name), self._folder.inside(document.name)
         file = path.relative_to(self._folder.root).as_posix()
         if path.suffix not in CASE_ENDINGS:
-            raise InputError(f"{file!r} is no name of a case file", path="file", remedy="let it end with .yaml")
+            raise InputError(f"{file!r} is no name of a case file", path="file", remedy="give it the ending .yaml")
         if path.exists() and (document.saved is None or path != own):
             raise InputError(f"{file!r} exists", path="file", remedy="choose another name")
         if path.exists() and self._written(file) not in (document.saved, document.text):

@@ -182,7 +182,7 @@ def _conclude(job: Job, outcome: tuple[Any, ...] | None) -> None:
         words = "partial results were written" if partial else message or status.replace("_", " ")
         job.words, job.fraction = "; ".join(filter(None, (words, verdict))), 1.0
     elif job.asked:
-        kept = "; the cases that ended are kept, and it goes on from there" if job.order.kind == "study" else ""
+        kept = "; the cases that ended are kept, and it continues from there" if job.order.kind == "study" else ""
         job.state, job.words = "cancelled", f"cancelled before there was a result{kept}"
     elif outcome is not None:
         job.state, job.words = "failed", str(outcome[1])

@@ -25,7 +25,7 @@ def line_parts(entry: CatenaryLine, path: str, water: Water) -> tuple[tuple[Segm
     Raises
     ------
     InputError
-        For names and diameters that the catalogue does not know.
+        For names and diameters that the catalogue does not have.
     """
     segments: list[Segment] = []
     clumps: list[Clump] = []
@@ -65,12 +65,12 @@ def bar_type_of(
 ) -> BarType | None:
     """Return what a segment is made of for a line in motion, without internal damping.
 
-    ``None`` where the segment does not tell enough and the line need not be ``needed`` in motion.
+    ``None`` where the segment does not give enough and the line need not be ``needed`` in motion.
 
     Raises
     ------
     InputError
-        For a segment that does not tell enough, cannot stretch, or floats more than its mass allows.
+        For a segment that does not give enough, cannot stretch, or floats more than its mass allows.
     """
     if isinstance(part, CatalogueSegment):
         return BarType.from_properties(line_type(part.catalogue, part.diameter), viscosity=0.0)

@@ -50,7 +50,7 @@ def check_chain_on_bed(
             ("lines", index, "segments"),
             f"line '{line.name}': no chain lies on the bed at rest (water level {level}); it pulls its anchor upwards "
             f"with {uplift / 1e3:.3g} kN before any wave",
-            allowed="some chain on the bed, unless the anchor bears uplift",
+            allowed="some chain on the bed, unless the anchor resists uplift",
             remedy=remedy,
         )
 

@@ -48,7 +48,7 @@ _LINE_PLACES = {
 
 
 def line_place(findings: Findings, index: int, code: str) -> KeyPath:
-    """Return the key of a line that a finding of :func:`moyai.mooring.checks.check_line_system` speaks of."""
+    """Return the key of a line that a finding of :func:`moyai.mooring.checks.check_line_system` is for."""
     path: KeyPath = ("lines", index)
     inner = (*path, _LINE_PLACES.get(code, ""))
     return inner if inner in findings.document.values else path

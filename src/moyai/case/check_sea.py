@@ -96,7 +96,7 @@ def check_level_names(model: Any, findings: Findings) -> None:
                 remedy=did_you_mean(name, model.site.water_levels),
             )
     for index in duplicates(chosen):
-        findings.fault(("settings", "water_levels", index), f"'{chosen[index]}' stands twice", remedy="remove one")
+        findings.fault(("settings", "water_levels", index), f"'{chosen[index]}' is given twice", remedy="remove one")
 
 
 def _check_name(path: KeyPath, name: str, findings: Findings) -> None:
@@ -150,7 +150,7 @@ def _check_levels(site: Any, findings: Findings) -> None:
     values = list(site.water_levels.items())
     for index in duplicates([f"{level!r}" for _, level in values]):
         name, level = values[index]
-        findings.warn(("site", "water_levels", name), f"another water level stands at {level:g} m as well")
+        findings.warn(("site", "water_levels", name), f"there is another water level at {level:g} m as well")
 
 
 def _check_bearings(model: Any, findings: Findings) -> None:
@@ -215,7 +215,7 @@ def _check_heading(state: Any, heading: float, path: KeyPath, findings: Findings
 
 
 def _of_theory(sea: RegularSea, period: float, water: Water) -> tuple[Notice, ...]:
-    """Hold a regular wave against breaking and against the theory that it is run in."""
+    """Compare a regular wave with breaking and against the theory that it is run in."""
     from moyai.sea.regular_theory import theory_of
     from moyai.sea.validity import check_wave
 
@@ -229,7 +229,7 @@ def check_waves(
     findings: Findings,
     check_heading: Callable[[Any, float, KeyPath, Findings], None] = _check_heading,
 ) -> None:
-    """Hold every sea state against breaking and the limits of its theory, at every water level.
+    """Compare every sea state with breaking and the limits of its theory, at every water level.
 
     Parameters
     ----------

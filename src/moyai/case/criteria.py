@@ -17,7 +17,7 @@ from moyai.core.kinds import structure_kind
 CASE = "case file"
 DEFAULT_CODE = "ISO 19901-7"
 UPLIFT_SOURCE = (
-    f"default of moyai: drag anchors bear no uplift (API RP 2SK, {UNCONFIRMED}); give 'greatest_uplift' for others"
+    f"default of moyai: drag anchors resist no uplift (API RP 2SK, {UNCONFIRMED}); give 'greatest_uplift' for others"
 )
 """Of the lines of breakwaters and networks: the factors that are common to ISO 19901-7 and API RP 2SK."""
 

@@ -13,7 +13,7 @@ from moyai.tables.design_codes import CodeRule, applicable_rule, code_rules
 _WORDS = "factor of safety of the lines"
 #: Share of the breaking load that counts as the characteristic strength where a code has partial factors.
 _CHARACTERISTIC = 0.95
-#: Analyses whose factors stand in where a code has none for the analysis at hand: the safer one.
+#: Analyses whose factors stand in where a code has none for the analysis given: the safer one.
 _STAND_IN = {"static": "quasi_static"}
 
 

@@ -1,4 +1,4 @@
-"""Hold every number of a case against its plausible range, alone and over other numbers of the case.
+"""Compare every number of a case with its plausible range, alone and over other numbers of the case.
 
 The ranges stand in one table, ``tables/data/plausible_ranges.csv``. Single keys are judged first; a ratio one of whose
 keys was reported of already says nothing more. What a default gives is not judged: only what stands in the file.
@@ -71,7 +71,7 @@ def check_plausibility(model: Block, findings: Findings) -> None:
             found = None if captured is None else _odd(row, first, captured, numbers)
             if found is not None:
                 odd.append(found)
-    # Kinds of ratio: a slip in two lines alike is no slip in what both are held against
+    # Kinds of ratio: a slip in two lines alike is no slip in what both are compared with
     ratios = {(one.row.quantity, key) for one in odd if len(one.paths) > 1 for key in _keys(one)}
     shared = Counter(key for _, key in ratios)
     reported: dict[KeyPath, bool] = {}
@@ -219,7 +219,7 @@ def _overlap(one: KeyPath, other: KeyPath) -> bool:
 def _blamed(
     odd: Odd, shared: Counter[KeyPath], reported: dict[KeyPath, bool], document: CaseDocument
 ) -> tuple[KeyPath, KeyPath, bool] | None:
-    """Return path in the model and place in the file of the number to tell of, and whether it is a factor itself.
+    """Return path in the model and place in the file of the number to report, and whether it is a factor itself.
 
     That is the first key of the quantity; another one where it was reported before, or where it stands in more odd
     ratios than the first, whose own value no slip of a unit explains.
@@ -298,7 +298,7 @@ def _remedy(row: PlausibleRange, value: float, power: int, place: KeyPath, findi
             if plain and row.unit:
                 millimetres = f"'{number:g} mm'" if row.unit == "m" and slip == 1e-3 else ""
                 return (
-                    f"a number without unit counts in {row.unit}: give the unit; did you mean {millimetres or meant}?"
+                    f"a number without unit is read in {row.unit}: give the unit; did you mean {millimetres or meant}?"
                 )
             return f"check the number and its unit: {meant} would be usual"
     return "check the number and its unit"

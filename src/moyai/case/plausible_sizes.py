@@ -1,4 +1,4 @@
-"""Sizes that follow from the keys of a case and that its numbers are held against: ``@beam``, ``@depth``, ``@period``.
+"""Sizes that follow from the keys of a case and that its numbers are compared with: ``@beam``, ``@depth``, ``@period``.
 
 Each comes with the keys that it follows from, so that one slip is reported once.
 """
@@ -77,7 +77,7 @@ class FastestWater:
 
 
 def fastest_water(model: Any, periods: Periods) -> FastestWater | None:
-    """Return how fast waves and current move the water; ``None`` where the file does not tell: a spectrum of a file."""
+    """Return how fast waves and current move the water; ``None`` for a spectrum from a file."""
     current = getattr(model.current, "speed", None) or 0.0
     found: list[tuple[float, float, tuple[KeyPath, ...]]] = []
     for index, state in enumerate(model.waves):

@@ -339,7 +339,7 @@ def _decimal_comma(path: KeyPath, document: CaseDocument) -> Fault | None:
 
 
 def _choose_root(document: CaseDocument, faults: list[Fault]) -> type[Block]:
-    """Return the schema that ``structure.kind`` asks for, or raise what stands in the way."""
+    """Return the schema that ``structure.kind`` names, or raise what stands in the way."""
     data = document.data
     if not isinstance(data, dict):
         raise CaseError([document.fault((), "a case file is a block of keys", remedy="'moyai new' prints a template")])

@@ -27,7 +27,7 @@ class OfCapytaine(Block):
 
     program: Literal["capytaine"] = Field(description="NetCDF written by Capytaine.")
     reference_point: tuple[Length, Length, Length] | None = Field(
-        default=None, description="Rotation centre [x, y, z] where the file does not say it."
+        default=None, description="Rotation centre [x, y, z] where the file does not give it."
     )
     body: BodyOfFile = Field(default=None, description=_BODY)
 

@@ -88,7 +88,7 @@ def _no_repeats(values: tuple[float, ...]) -> tuple[float, ...]:
         )
     if len(set(values)) < len(values):
         twice = next(value for index, value in enumerate(values) if value in values[:index])
-        raise refuse(f"{twice:g} stands twice in the list", remedy="remove one")
+        raise refuse(f"{twice:g} is given twice in the list", remedy="remove one")
     return values
 
 
@@ -150,7 +150,7 @@ class RegularWavesOfHeights(RegularWavesKeys):
 SteepTheory = Literal["automatic", "linear", "stream_function"]
 STEEP_THEORY = (
     "Wave theory: linear or stream function; automatic takes linear waves where their second harmonic is below 1 % of "
-    "the first, else the stream function. Bodies with coefficients and rigid cages know linear waves only."
+    "the first, else the stream function. Bodies with coefficients and rigid cages take linear waves only."
 )
 
 

@@ -134,7 +134,7 @@ SegmentEntry = Annotated[
 def _clumps_between(entries: tuple[Any, ...]) -> tuple[Any, ...]:
     kinds = [isinstance(entry, ClumpEntry) for entry in entries]
     if kinds[0] or kinds[-1]:
-        raise refuse("a clump stands at the end of the line", allowed="clumps between two segments")
+        raise refuse("a clump is at the end of the line", allowed="clumps between two segments")
     if any(a and b for a, b in itertools.pairwise(kinds)):
         raise refuse("two clumps follow each other", remedy="join them into one")
     return entries

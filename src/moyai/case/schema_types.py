@@ -360,5 +360,5 @@ def once_each(values: tuple[Any, ...]) -> tuple[Any, ...]:
     """Refuse a list that names something twice."""
     for index, value in enumerate(values):
         if value in values[:index]:
-            raise refuse(f"'{value}' stands twice in the list", remedy="remove one")
+            raise refuse(f"'{value}' is given twice in the list", remedy="remove one")
     return values

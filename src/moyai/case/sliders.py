@@ -19,17 +19,17 @@ class Slider:
     """A number of the case that can be moved."""
 
     path: str
-    #: Unit as the file writes it.
+    #: What the slider is called on the page.
     label: str
     #: Unit as the file writes it.
     unit: str
-    #: In that unit.
+    #: Value in the file, in that unit.
     value: float
-    #: In that unit.
+    #: Lower end, in that unit.
     low: float
-    #: In that unit.
+    #: Upper end, in that unit.
     high: float
-    #: In that unit.
+    #: Step, in that unit.
     step: float
     #: Digits behind the point that the step needs.
     decimals: int

@@ -83,7 +83,7 @@ def without_key(document: CaseDocument, path: KeyPath) -> CaseDocument:
     entry = _entry(document, path)
     siblings = entry.parent.value
     if len(siblings) == 1:
-        raise InputError("nothing else stands in this block", path=dotted(path), remedy="remove the block")
+        raise InputError("nothing else is in this block", path=dotted(path), remedy="remove the block")
     wanted = copy.deepcopy(document.data)
     remove(wanted, path)
     text = document.text
@@ -100,7 +100,7 @@ def without_key(document: CaseDocument, path: KeyPath) -> CaseDocument:
     following = siblings[1][0].start_mark.index if entry.place == 0 else end
     between = text[end:following]
     if between.strip():
-        raise InputError("a comment stands below this key", path=dotted(path), remedy=_IN_TEXT)
+        raise InputError("a comment follows this key", path=dotted(path), remedy=_IN_TEXT)
     return _first_that_reads(document, path, [text[:first] + text[following:]], wanted)
 
 

@@ -29,9 +29,9 @@ class Written:
     #: In the unit as written.
     value: float
     unit: str
-    #: Characters of the digits.
+    #: First character of the digits.
     start: int
-    #: Characters of the digits.
+    #: Character behind the digits.
     end: int
 
 

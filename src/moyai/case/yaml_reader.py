@@ -64,7 +64,7 @@ class CaseDocument:
         """Return the place of ``path``, or of the nearest block around it that is written in the file."""
         for length in range(len(path), -1, -1):
             head = tuple(path[:length])
-            # Of a block that lacks a key, the line of its own key tells more than the line of its first entry
+            # Of a block that lacks a key, the line of its own key gives more than the line of its first entry
             first, second = (self.keys, self.values) if of_key or length < len(path) else (self.values, self.keys)
             found = first.get(head) or second.get(head)
             if found:
@@ -205,7 +205,7 @@ class _Builder:
             if known is None:
                 self._stop(f"'*{event.anchor}' refers to an anchor that is not defined above", event)
             elif not known.complete:
-                self._stop(f"'*{event.anchor}' stands inside the block that it refers to", event)
+                self._stop(f"'*{event.anchor}' is inside the block that it refers to", event)
             return _Recorded("alias", place, known)
         node = _Recorded("scalar", place)
         if event.anchor:
@@ -274,7 +274,10 @@ class _Builder:
             elif name in out:
                 first = self.keys[here]
                 self._fault(
-                    f"the key '{name}' stands twice", key.place, here, f"it was given in line {first.line}: remove one"
+                    f"the key '{name}' is given twice",
+                    key.place,
+                    here,
+                    f"it was given in line {first.line}: remove one",
                 )
             else:
                 self.keys[here] = key.place

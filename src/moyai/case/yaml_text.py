@@ -15,7 +15,7 @@ _MARKS = {b"\xef\xbb\xbf": "utf-8", b"\xff\xfe": "utf-16-le", b"\xfe\xff": "utf-
 _PLAIN: tuple[tuple[str, str, str], ...] = (
     (
         "mapping values are not allowed",
-        "a ':' stands where no key can begin",
+        "a ':' is where no key can begin",
         "check the ':' and the indentation of this line and the one above, or quote a value that contains ': '",
     ),
     ("could not find expected ':'", "this line has no ':' after its key", "write 'key: value'"),
@@ -115,7 +115,7 @@ def refuse_odd_characters(text: str, file: str) -> None:
     raise CaseError(
         [
             Fault(
-                f"the character U+{ord(found[0]):04X} may not stand in a YAML file",
+                f"the character U+{ord(found[0]):04X} is not allowed in a YAML file",
                 file=file,
                 line=line,
                 column=column,
@@ -158,7 +158,7 @@ def refuse_wide_signs(text: str, file: str) -> None:
                     what = f"a full-width sign '{bare[column]}'"
                     places.setdefault(column, (what, f"write '{plain}' in braces and brackets"))
         faults += [
-            Fault(f"{what} stands where YAML needs a plain one", "", "", remedy, file, number, column + 1)
+            Fault(f"{what} is used where YAML needs a plain one", "", "", remedy, file, number, column + 1)
             for column, (what, remedy) in sorted(places.items())
         ]
     if faults:

@@ -22,9 +22,9 @@ def app(
         Path | None, typer.Option("--output", "-o", help="Folder of the results; out in the folder when absent.")
     ] = None,
 ) -> None:
-    """Change cases in the browser and see their figures at once; full runs as jobs. Needs the extra moyai[app].
+    """Change cases in the browser and see their results at once; full runs as jobs. Needs the extra moyai[app].
 
-    The page is served on this machine only and asks nothing of the network. It ends with Ctrl-C.
+    The page is served on this machine only and needs no network. It ends with Ctrl-C.
     """
     with guard():
         from moyai.app.serve import chosen_folder, require_extra, serve

@@ -34,7 +34,7 @@ _WHOLE = (
     (r"^Missing (argument|option) ('.*')\.$", r"Missing, and has to be given: \1 \2"),
     (r"^No such command ('[^']*')\.$", r"There is no command of the name \1"),
     (r"^Option ('[^']*') requires an argument\.$", r"There is no value behind the option \1"),
-    (r"^Option ('[^']*') does not take a value\.$", r"No value may stand behind the option \1"),
+    (r"^Option ('[^']*') does not take a value\.$", r"No value may follow the option \1"),
 )
 #: What click puts behind the help of an option: [required], [default: 3].
 _EXTRA = re.compile(r"^(.*?)(\s\s\[[^\[\]]*\])$", re.DOTALL)

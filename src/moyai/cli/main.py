@@ -72,7 +72,7 @@ app = typer.Typer(
     add_completion=False,
     pretty_exceptions_enable=False,
     rich_markup_mode=None,
-    help="How moored floating and flexible coastal structures answer waves and currents.",
+    help="How moored floating and flexible coastal structures respond to waves and currents.",
 )
 app.command("app")(app_command)
 app.command()(study)
@@ -428,7 +428,7 @@ def validate(
     """Compute every case with a reference again: value, reference, error, and where the reference is from.
 
     A reference is exact (closed form, identity, planted value), published, measured, of another program, or of a second
-    program of our own; each row says which. Rows come as the cases end.
+    program of our own; each row states which. Rows come as the cases end.
     """
     with guard(as_json):
         if paper is not None:

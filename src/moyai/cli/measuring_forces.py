@@ -26,7 +26,7 @@ def forces(
     report: Annotated[bool, typer.Option(help="Write the report and its tables next to results.nc.")] = True,
     as_json: Annotated[bool, typer.Option("--json", help="Print JSON on standard output, errors included.")] = False,
 ) -> None:
-    """Find C_M and C_D from a record of force and velocity, with intervals, and say what cannot be known."""
+    """Find C_M and C_D from a record of force and velocity, with intervals, and state what cannot be determined."""
     with guard(as_json):
         from moyai.core.run_folder import prepare_output
         from moyai.records.forces.case.build import load_force_record, record_of, setup_of

@@ -24,7 +24,7 @@ def streaks(
 ) -> None:
     """Measure the circulation around a section in waves from pictures of particle streaks.
 
-    Every recording that is done is kept in the folder of the results, so that an interrupted batch goes on.
+    Every recording that is done is kept in the folder of the results, so that an interrupted batch continues.
     """
     with guard(as_json):
         from moyai.core.run_folder import prepare_output

@@ -43,7 +43,7 @@ def query(
     output: Annotated[Path | None, typer.Option("--csv", help="Write the table to this file.")] = None,
     as_json: Annotated[bool, typer.Option("--json", help="Print JSON on standard output.")] = False,
 ) -> None:
-    """Ask the results of a study: which cases, the worst of them, tables over two axes; alone: what there is to ask."""
+    """Query the results of a study: cases, the worst of them, tables over two axes; alone: what can be queried."""
     with guard(as_json):
         from moyai.study.query import read_study_results
 

@@ -34,7 +34,7 @@ def scale(
         str | None, typer.Option("--density", help="Water of the new size [kg/m3]; that given when absent.")
     ] = None,
     given_density: Annotated[
-        str | None, typer.Option("--given-density", help="Water of single figures; a case file states its own.")
+        str | None, typer.Option("--given-density", help="Water of single values; a case file states its own.")
     ] = None,
     gravity: Annotated[
         str, typer.Option("--gravity", help="Gravity of the new size over that given: 1, but in a centrifuge.")
@@ -47,7 +47,7 @@ def scale(
         typer.Option(
             "--at-hand",
             metavar="NAME=VALUE",
-            help="What the model really has of a quantity (EA, spring, mass): tells the spring in series or the mass "
+            help="What the model really has of a quantity (EA, spring, mass): gives the spring in series or the mass "
             "to add. May be repeated.",
         ),
     ] = None,
@@ -55,7 +55,8 @@ def scale(
         str | None, typer.Option("--line-length", help="Length in the prototype of the line whose EA is --at-hand.")
     ] = None,
     speed: Annotated[
-        str | None, typer.Option("--speed", help="Speed of the water in the prototype, for Reynolds and its like.")
+        str | None,
+        typer.Option("--speed", help="Speed of the water in the prototype, for the Reynolds number and others."),
     ] = None,
     across: Annotated[
         str | None, typer.Option("--across", help="Size of the member across the flow, in the prototype.")
@@ -65,7 +66,7 @@ def scale(
     force: Annotated[bool, typer.Option("--force", help="Replace a file that exists.")] = False,
     as_json: Annotated[bool, typer.Option("--json", help="Print JSON on standard output, errors included.")] = False,
 ) -> None:
-    """Scale a case file or single figures: prototype to model and back, Froude with the Cauchy number kept."""
+    """Scale a case file or single values: prototype to model and back, Froude with the Cauchy number kept."""
     with guard(as_json):
         from moyai.cli.scaling import Request, answer
 

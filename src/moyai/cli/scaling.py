@@ -55,7 +55,7 @@ class Request:
 
 @dataclass(frozen=True)
 class Answer:
-    """Everything that the command shows; ``text`` is the new case file, ``None`` for single figures."""
+    """Everything that the command shows; ``text`` is the new case file, ``None`` for single values."""
 
     scale: Scale
     rows: tuple[ScaledQuantity, ...]
@@ -263,7 +263,8 @@ def print_answer(console: Console, answered: Answer) -> None:
         console.print(f"prototype: {answered.waters[0]}, model: {answered.waters[1]}, both at 20 degrees", markup=False)
     else:
         console.print(
-            "not kept: Reynolds, Weber, modulus of a material; --speed and --across tell by how much", markup=False
+            "not kept: Reynolds and Weber number, modulus of a material; --speed and --across show by how much",
+            markup=False,
         )
     for notice in answered.notices:
         console.print(f"{notice.severity}: {notice.message}", markup=False, soft_wrap=True)

@@ -26,7 +26,7 @@ def study(
     output: Annotated[
         Path | None, typer.Option("--output", "-o", help="Folder of the results; out/<name of the file> when absent.")
     ] = None,
-    check: Annotated[bool, typer.Option("--check", help="Check all cases, try one, say what would run.")] = False,
+    check: Annotated[bool, typer.Option("--check", help="Check all cases, try one, list what would run.")] = False,
     workers: Annotated[
         int | None, typer.Option("--workers", "-w", help="Processes on this machine; one a core when absent.")
     ] = None,
@@ -39,7 +39,7 @@ def study(
     as_json: Annotated[bool, typer.Option("--json", help="Print JSON on standard output, errors included.")] = False,
     quiet: Annotated[bool, typer.Option("--quiet", "-q", help="No progress bars and no summary.")] = False,
 ) -> None:
-    """Run every case of a study; the same command goes on where it was stopped."""
+    """Run every case of a study; the same command continues where it was stopped."""
     with guard(as_json):
         from moyai.study.plan import load_study
 
@@ -100,7 +100,7 @@ def study(
             for path in files:
                 put(f"  {path}")
             if result.status == "interrupted":
-                say("give the same command again to go on")
+                say("give the same command again to continue")
         raise typer.Exit(OK if result.status == "converged" else FAILED)
 
 

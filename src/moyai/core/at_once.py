@@ -43,7 +43,7 @@ def at_once(work: Callable[[int, Progress], None], count: int, progress: Progres
     """Do ``count`` parts, so many at a time as there are cores.
 
     The listener is called from the thread that calls this. Where it raises, or Ctrl-C comes, every part is stopped by
-    a KeyboardInterrupt out of its own listener, and the exception goes on when all have ended.
+    a KeyboardInterrupt out of its own listener, and the exception continues when all have ended.
 
     Parameters
     ----------

@@ -25,7 +25,7 @@ _RANK = {"error": 0, "warning": 1, "information": 2}
 class Collected:
     """What a run has so far; kept whole at every moment so that an interrupt loses only the step in hand.
 
-    It grows while the run goes on and is closed once, into the immutable :class:`~moyai.core.results.Result`.
+    It grows while the run continues and is closed once, into the immutable :class:`~moyai.core.results.Result`.
 
     Attributes
     ----------

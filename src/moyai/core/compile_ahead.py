@@ -1,4 +1,4 @@
-"""Compile the kernels of a structure in further processes, while the first run goes on.
+"""Compile the kernels of a structure in further processes, while the first run continues.
 
 A kernel is compiled once on a machine and kept by numba. The lists ``structures/<kind>/kernels.txt`` name the kernels
 that the templates of a structure compile, in the order in which they are done and with the seconds that they took:

@@ -219,7 +219,7 @@ def when_compiling(call: Callable[[], None]) -> Iterator[None]:
 
 
 class _Pointer:
-    """A compiled function for arguments of given types as another one takes it; numba asks for these two methods."""
+    """A compiled function for arguments of given types as another one takes it; numba requires these two methods."""
 
     def __init__(self, function: Any, arguments: tuple[Any, ...]) -> None:
         kinds = tuple(numba.typeof(value) for value in arguments)

@@ -12,7 +12,7 @@ from typing import Any
 def look_for_imported_dask() -> None:
     """Let xarray take an array for one of dask's only where dask has been imported: no other can be one.
 
-    Where xarray keeps its modules in another way than it does today it goes on by itself.
+    Where xarray keeps its modules in another way than it does today it continues by itself.
     """
     from xarray.namedarray import pycompat
 

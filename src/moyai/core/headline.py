@@ -55,12 +55,12 @@ class Band:
     #: Interval at whose unfavourable end a criterion is judged where the band itself does not decide, for instance the
     #: confidence interval of a mean over few seeds; ``None``: at the value itself.
     judged: tuple[float, float] | None = None
-    #: Realisations that the interval is of, and the key of the case that asks for more of them.
+    #: Realisations that the interval is of, and the key of the case for more of them.
     realisations: int = 0
     more: str = ""
     #: What the judged end comes to with very many realisations, the upper ends of coefficients in it.
     settled: float | None = None
-    #: Whether the judged end lies beyond what a bound "at least" leaves open, as the growth that was seen goes on.
+    #: Whether the judged end lies beyond what a bound "at least" leaves open, as the growth that was seen continues.
     beyond_bound: bool = False
 
     def scaled(self, less: float, more: float | None = None) -> Band:
@@ -171,7 +171,7 @@ def governing(candidates: Iterable[Headline], sense: Sense = "at most") -> list[
     ----------
     candidates : iterable of Headline
     sense : {"at most", "at least"}
-        Of the limits that it is held against: the largest counts, or the least.
+        Of the limits that it is compared with: the largest counts, or the least.
     """
     items = list(candidates)
     if not items:
@@ -225,7 +225,7 @@ def all_judged(candidates: Iterable[Headline], sense: Sense = "at most") -> list
 def saying_what_is_open(items: Iterable[Headline]) -> list[Headline]:
     """Return numbers with the first, which is shown, naming the largest of those behind it that is but a lower bound.
 
-    What is held against no criterion has no other mark of it.
+    What is compared with no criterion has no other mark of it.
     """
     found = list(items)
     behind = [item for item in found[1:] if item.bound == "at least" and item.name == found[0].name]
@@ -383,7 +383,7 @@ def _judge_part(criterion: Criterion, headline: Headline, left_out: str) -> Judg
     if headline.bound == criterion.sense:
         # what it bounds is but what was run
         return Judgement(criterion, headline.value, "not judged", left_out, headline.bound)
-    # the end to which a growth goes on is that of what was run too
+    # the end to which a growth continues is that of what was run too
     band = None if headline.band is not None and headline.band.beyond_bound else headline.band
     open_one: Bound = "at least" if criterion.sense == "at most" else "at most"
     found = _judge_one(criterion, replace(headline, bound=open_one, band=band))

@@ -17,7 +17,7 @@ Bound = Literal["", "at most", "at least"]
 Sense = Literal["at most", "at least"]
 Outcome = Literal["holds", "does not hold", "not judged"]
 UNCONFIRMED = "not confirmed against the standard"
-"""What the source of a criterion says of values that nobody has yet held against the standard itself."""
+"""What the source of a criterion says of values that nobody has yet compared with the standard itself."""
 NOT_COMPUTED = "the computation did not converge inside its range"
 """Why nothing holds of a computation that cannot be judged."""
 MOST_FAILING = 8

@@ -107,7 +107,7 @@ class StructureKind(Kind):
         return ()
 
     def add_sizes(self, model: Any, sizes: Any, periods: Any) -> None:
-        """Add sizes that numbers of a case are held against (:mod:`moyai.case.plausible_sizes`); none by default."""
+        """Add sizes that numbers of a case are compared with (:mod:`moyai.case.plausible_sizes`); none by default."""
 
     @abstractmethod
     def check(self, model: Any, findings: Any, folder: Path) -> None:
@@ -122,7 +122,7 @@ class StructureKind(Kind):
         """Return the numbers that ``moyai check`` shows, a tuple of :class:`moyai.case.derived.Number`."""
 
     def nominal(self, problem: Any, shown: Collection[str] = ()) -> Any | None:
-        """Return a problem without what only tells how far its answer varies: ranges, bands, other laws, other speeds.
+        """Return a problem without what only states how far its answer varies: ranges, bands, other laws, other speeds.
 
         For a first draft, marked as such; ``shown`` names the sections of the report that are looked at, all where it
         is empty. None where there is nothing to leave out.

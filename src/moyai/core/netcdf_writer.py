@@ -135,7 +135,7 @@ class _NetcdfWriter:
 
 
 def _growing(shape: tuple[int, ...]) -> dict[str, Any]:
-    """Return what makes a dataset of no numbers: NetCDF knows no dimension of length 0 but one without a limit."""
+    """Return what makes a dataset of no numbers: NetCDF has no dimension of length 0 but one without a limit."""
     return {"maxshape": tuple(size or None for size in shape), "chunks": True} if 0 in shape else {}
 
 

@@ -229,7 +229,7 @@ def _finite(value: float, kind: QuantityKind, path: str) -> float:
 def _case_slip(symbol: str, kind: QuantityKind) -> str:
     """Return a remedy where a rate lacks its angle, or where a unit fits in another case of letters (3 kn for 3 kN)."""
     if kind in (FREQUENCY, ANGULAR_FREQUENCY) and parse_unit(symbol).dimension == Dimension(time=-1):
-        return "say which rate is meant: 'Hz' (cycles per second) or 'rad/s'"
+        return "state which rate is meant: 'Hz' (cycles per second) or 'rad/s'"
     for candidate, unit in unit_table().items():
         if candidate != symbol and candidate.lower() == symbol.lower() and unit.dimension == kind.dimension:
             return f"did you mean '{candidate}'?"

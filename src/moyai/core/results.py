@@ -56,7 +56,7 @@ class Result:
     provenance: Mapping[str, Any] = field(default_factory=dict)
     #: The numbers of the first page, the governing one first.
     headlines: tuple[Headline, ...] = ()
-    #: Whether the design keeps its criteria; apart from ``status``, which speaks of the computation.
+    #: Whether the design keeps its criteria; apart from ``status``, which is for the computation.
     verdict: Verdict = field(default_factory=Verdict)
 
     def __post_init__(self) -> None:

@@ -48,7 +48,7 @@ def prepare_output(directory: Path) -> Path:
 
 @contextmanager
 def alone_in(folder: Path) -> Iterator[None]:
-    """Hold a folder against other runs; the system frees it however the process ends.
+    """Lock a folder against other runs; the system frees it however the process ends.
 
     Raises
     ------
@@ -64,7 +64,7 @@ def alone_in(folder: Path) -> Iterator[None]:
 
 
 def _lock(folder: Path) -> int | None:
-    """Return the handle that holds the lock, ``None`` on file systems that know no locks."""
+    """Return the handle that holds the lock, ``None`` on file systems that have no locks."""
     handle: int | None = None
     try:
         if sys.platform == "win32":

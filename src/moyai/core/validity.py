@@ -20,7 +20,7 @@ class Notice:
     code: str
     #: One sentence for the engineer, naming the quantity, its number and the limit.
     message: str
-    #: ``value``, ``limit``: The number found and the limit it was held against (NaN where there is none).
+    #: ``value``, ``limit``: The number found and the limit it was compared with (NaN where there is none).
     value: float = math.nan
     #: See ``value``.
     limit: float = math.nan
@@ -30,16 +30,20 @@ class Notice:
     remedy: str = ""
     #: Paper, equation or standard behind the limit.
     source: str = ""
+    #: Unit of ``value`` and ``limit`` where a reader sees another one: ``rad`` of angles.
+    unit: Literal["", "rad"] = ""
 
     def as_dict(self) -> dict[str, Any]:
-        """Return a JSON-ready mapping (NaN becomes ``None``)."""
+        """Return a JSON-ready mapping (NaN becomes ``None``; no ``unit`` where there is none)."""
         record = asdict(self)
+        if not self.unit:
+            del record["unit"]
         return {key: None if isinstance(item, float) and math.isnan(item) else item for key, item in record.items()}
 
 
 @dataclass(frozen=True)
 class IdentityCheck:
-    """An identity that every correct solution obeys, held against the solution at hand."""
+    """An identity that every correct solution obeys, checked in one solution."""
 
     #: For instance ``energy balance of the fixed section``.
     name: str

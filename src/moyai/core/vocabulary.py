@@ -73,7 +73,7 @@ _QUANTITIES = (
     Variable("wavelength", "m", "wave length L"),
     Variable("wave_number", "1/m", "wave number k"),
     Variable("slack_share", "1", "share of the time that the line is slack"),
-    Variable("snap_threshold", "N", "peak above which a contact counts as a snap"),
+    Variable("snap_threshold", "N", "peak above which a contact is a snap"),
     Variable("solidity_listed", "1", "listed solidity of the net"),
     Variable("frequency", "Hz", "frequency"),
 )
@@ -92,7 +92,7 @@ _LABELS = (
 #: Concepts and labels that several kinds of result share.
 COMMON: Mapping[str, Variable] = {variable.name: variable for variable in (*_QUANTITIES, *_LABELS)}
 
-#: Names of earlier versions and what they are called, for users who ask for them.
+#: Names of earlier versions and what they are called, for users of former names.
 FORMER: Mapping[str, str] = {
     **dict.fromkeys(
         ("maximum_tension", "peak_tension", "tension_largest", "tension_maximum"), LINE_TENSION_MAXIMUM.name

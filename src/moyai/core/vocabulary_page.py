@@ -20,7 +20,7 @@ Name, unit and meaning of every variable and label that a result may hold, in SI
 [Layout of a result](result_layout.md) says in which group and along which dimensions they stand. A bold name is never
 missing where the analysis that writes it ran to its end.
 """
-#: Root attributes that tell models of a kind apart, for :meth:`moyai.core.kinds.Kind.vocabulary_of`.
+#: Root attributes that separate models of a kind, for :meth:`moyai.core.kinds.Kind.vocabulary_of`.
 _MODELS: tuple[dict[str, str], ...] = ({}, {"cage_model": "rigid"}, {"cage_model": "flexible"})
 
 

@@ -26,11 +26,11 @@ ALIGNED = 1e-6
 class RodPart:
     """A round rod along one of the axes of its body."""
 
-    #: [m].
+    #: One end [m].
     start: Triple
-    #: [m].
+    #: The other end [m].
     end: Triple
-    #: [m].
+    #: Diameter [m].
     diameter: float
     #: Of a solid cylinder [kg/m].
     mass_per_length: float
@@ -116,7 +116,7 @@ class BodyAssembly:
             what = "has no length" if not rod.length > 0.0 else "leans from the axes of the body"
             raise InputError(
                 f"a rod of '{name}' {what}", parameter="rod", allowed="a rod along the x, y or z axis of its body",
-                remedy="turn the axes of the body (rotation_deg) so that one of them lies along the rod",
+                remedy="turn the axes of the body so that one of them lies along the rod",
             )  # fmt: skip
         start, end = np.array(rod.start, dtype=float), np.array(rod.end, dtype=float)
         length, d = rod.length, rod.diameter

@@ -65,7 +65,7 @@ class BodyHistory:
 
     @property
     def angles(self) -> Array:
-        """Roll, pitch, yaw (k, 3) [rad]; yaw goes on beyond a half turn."""
+        """Roll, pitch, yaw (k, 3) [rad]; yaw continues beyond a half turn."""
         found = roll_pitch_yaw(self.rotation)
         found[:, 2] = np.unwrap(found[:, 2])
         return found
@@ -73,7 +73,7 @@ class BodyHistory:
 
 @dataclass(frozen=True, eq=False)
 class BodyState:
-    """Where a rigid body is in its motion, for a run that goes on."""
+    """Where a rigid body is in its motion, for a run that continues."""
 
     #: Place of the centre of gravity [m], unit quaternion from body to site, velocity [m/s] in site axes, spin [rad/s]
     #: in body axes; shape (13,).

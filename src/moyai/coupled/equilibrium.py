@@ -221,9 +221,10 @@ class _NewtonSearch:
             worst = int(np.argmin(own[:, 2] - level))
             if own[worst, 2] < level[worst] - max(1e-9, bed.tolerance):
                 raise ConvergenceError(
-                    f"no rest found: body {name!r} sinks through the bed at z = {level[worst]:.4g} m, on which bodies "
-                    "do not come to rest",
-                    remedy="check its mass and its volume; only lines from above can hold what is heavier than water",
+                    f"no equilibrium found: body {name!r} sinks through the bed at z = {level[worst]:.4g} m, where "
+                    "no equilibrium of bodies is sought",
+                    remedy="check its mass and its volume; only lines from above can hold a body that is heavier than "
+                    "water",
                 )
 
     def jacobian(self, base: Array) -> Array:
@@ -291,12 +292,12 @@ class _NewtonSearch:
         if not left <= max(tolerance, 1e-6):
             worst = list(self.bodies)[int(np.argmax(np.abs(force))) // 6]
             raise ConvergenceError(
-                f"no rest found: {left * self.scale:.3g} N are left on body {worst!r}",
-                remedy="start nearer to rest, or check weight, buoyancy and lines of the body",
+                f"no equilibrium found: {left * self.scale:.3g} N are left on body {worst!r}",
+                remedy="start nearer to equilibrium, or check weight, buoyancy and lines of the body",
             )
         network, rest = self.last if self.last is not None else (self.network, None)
         if rest is None:
-            raise ConvergenceError("nothing to bring to rest")
+            raise ConvergenceError("no body to find the equilibrium of")
         bodies = {name: self._rested(self.bodies[name], carrier) for name, carrier in self.carriers.items()}
         state = State(0.0, rest.state.position, np.zeros_like(rest.state.position))
         return CoupledEquilibrium(network, state, bodies, rest.tension, left, self.solves)

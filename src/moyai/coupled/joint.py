@@ -23,7 +23,7 @@ PATIENT_CUTS, PATIENT_PASSES = 3, 40
 class Joint:
     """Bodies and network held together.
 
-    A step is tried with a reaction continued from the last ones; the network tells what reaction the bodies' path
+    A step is tried with a reaction continued from the last ones; the network gives the reaction that the bodies' path
     really gives, and so on until both agree within ``tolerance`` of the largest reaction so far. From the third pass
     on a quasi-Newton step (Anderson 1965) replaces the plain repetition, which converges like stiffness times step
     squared over mass. What disagreement is left is added to the next step's reaction, so that no impulse is lost

@@ -158,7 +158,6 @@ def steps_at_the_pace(interval: float, least: int, limit: float) -> tuple[int, t
         Notice(
             "wave-front", f"steps of the network are {reached:.2f} of the pace of the elastic wave: sharp fronts run "
             "with ripples that raise peaks by up to a tenth", reached, PACE, "warning",
-            f"rows that are a multiple of {limit:.5g} s apart, {LEAST_STEPS} times it at least (settings.output_step), "
-            "let them go at the pace",
+            f"rows that are a multiple of {limit:.5g} s apart, {LEAST_STEPS} times it at least, reach this step",
         ),
     )  # fmt: skip

@@ -1,4 +1,4 @@
-"""One planar body on lines in motion, many steps a call: the compiled form of the joint where nothing asks for more."""
+"""One planar body on lines in motion, many steps a call: the compiled form of the joint where nothing requires more."""
 
 from __future__ import annotations
 

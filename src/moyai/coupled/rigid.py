@@ -143,7 +143,7 @@ class RigidBody:
             raise InputError(
                 f"body {self.name!r} has both hydrodynamic coefficients and a hull: its buoyancy would count twice",
                 parameter=f"{path}.lumps",
-                remedy="leave one of them out; lumps without volume may carry drag",
+                remedy="leave one of them out; lumps without volume may have drag",
             )
 
     @property

@@ -108,7 +108,7 @@ def simulate_coupled(
     keep_nodes, keep_bars : array_like of int, optional
         What the record of the network holds.
     carriers : mapping of str to PointCarrier, optional
-        Bodies that move already (a run that goes on, a velocity at the start), in place of fresh ones.
+        Bodies that move already (a run that continues, a velocity at the start), in place of fresh ones.
     progress : Progress
         Called with the simulated time.
 
@@ -147,8 +147,8 @@ def simulate_coupled(
         raise InputError(f"tolerance is {tolerance:g}", parameter="tolerance", allowed="above 0, below 1")
     if any(kind.slow is not None for kind in network.bars.types):
         raise InputError(
-            "ropes that give way slowly are not run next to bodies", parameter="bodies",
-            remedy="leave 'slow_stretch' out: the quick stiffness holds in waves, the static one for slow offsets",
+            "ropes with creep are not run together with bodies", parameter="bodies",
+            remedy="leave the slow stretch out: the quick stiffness holds in waves, the static one for slow offsets",
         )  # fmt: skip
     flow, start = flow or Flow(), start or State.at_rest(network)
     check_points(network, bodies, carriers or {}, start)
@@ -231,7 +231,7 @@ def _drive(
             if not gain <= ENERGY_STOP * throughput:
                 ending.status = "not_converged"
                 ending.message = (
-                    f"stopped at t = {begin + row * interval:g} s: energy of {gain:.3g} J came from nowhere in the "
+                    f"stopped at t = {begin + row * interval:g} s: energy balance error of {gain:.3g} J in the "
                     "network; more viscosity of the bars or a smaller step calms it"
                 )
                 break
@@ -273,7 +273,7 @@ def _history(
     through = max(float(np.max(total)), float(np.max(np.abs(record.work))), joint.work, 1e-12)
     checks = (
         IdentityCheck(
-            "energy from nowhere in the network", max(gain, 0.0) / through, ENERGY_TOLERANCE,
+            "energy balance error of the network", max(gain, 0.0) / through, ENERGY_TOLERANCE,
             "rise of kinetic and elastic energy beyond the work done, over the energy that went through",
         ),
         IdentityCheck(

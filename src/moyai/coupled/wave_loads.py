@@ -20,7 +20,7 @@ if TYPE_CHECKING:
 
 
 DOFS = ("Surge", "Sway", "Heave", "Roll", "Pitch", "Yaw")
-#: Accuracy and size of the states that carry the memory.
+#: Accuracy and size of the states of the radiation memory.
 STATE_TOLERANCE, MOST_POLES = 1e-3, 24
 #: Worst fit of the memory that is taken, over the largest response of each pair of motions.
 WORST_FIT = 0.1
@@ -41,9 +41,9 @@ class WaveLoads:
     #: Exciting force per unit amplitude, Re(X exp(-i omega t)), phase at the origin of the coefficients; shape (n, m,
     #: 6).
     amplitude: ComplexArray
-    #: Shape (6, 6).
+    #: Added mass at infinite frequency; shape (6, 6).
     infinite_frequency_added_mass: Array
-    #: Shape (6, 6).
+    #: Hydrostatic stiffness; shape (6, 6).
     stiffness: Array
     memory: StateSpaceMemory
     #: At rest [m3].
@@ -60,7 +60,7 @@ class WaveLoads:
     follow: bool = False
     #: Identities of the memory.
     checks: tuple[IdentityCheck, ...] = ()
-    #: Identities of the memory.
+    #: Notices of the memory.
     notices: tuple[Notice, ...] = ()
 
     @classmethod
@@ -315,7 +315,7 @@ def _memory(
         )
     reported = Notice(
         "memory",
-        f"{len(best.poles)} poles carry the memory of the water, its frequency response within "
+        f"{len(best.poles)} poles represent the radiation memory, the fitted frequency response within "
         f"{100.0 * best.error:.1g} % of the largest of each pair of motions",
         value=float(best.error),
         limit=0.01,

@@ -50,7 +50,7 @@ def anchor_need(uplift: float, grounded: float, sinker: float, of: str = "") -> 
     grounded : float
         Length of line on the bed [m].
     sinker : float
-        Weight in water of the heaviest sinker that any line asks for, at the unfavourable end of pull and uplift [N].
+        Weight in water of the heaviest sinker that any line requires, at the unfavourable end of pull and uplift [N].
     of : str
         Which line that is, where it is another one.
     """

@@ -1,4 +1,4 @@
-"""Lines held against a design code: utilisation, pass or fail, and what stands behind the factors.
+"""Lines compared with a design code: utilisation, pass or fail, and what stands behind the factors.
 
 Theory in docs/theory/design_checks.md.
 """
@@ -22,9 +22,9 @@ class LineLoad:
 
     #: Name of the line.
     line: str
-    #: [N]
+    #: Largest tension [N].
     maximum_tension: float
-    #: [N]
+    #: Mean tension [N].
     mean_tension: float
     #: Minimum breaking load of the new line [N].
     breaking_load: float
@@ -95,7 +95,7 @@ def design_code(
     consequence : str
         Class, for codes that have classes.
     confirmed : iterable of str
-        Editions or names of codes whose values the user has held against the standard.
+        Editions or names of codes whose values the user has compared with the standard.
     own : sequence of CodeRule
         Values of the user's own in place of the table's.
 
@@ -135,7 +135,7 @@ def design_code(
 
 
 def check_line(load: LineLoad, code: DesignCode, *, corrosion: float = 0.0, diameter: float = math.nan) -> LineCheck:
-    """Hold a line against a code.
+    """Compare a line with a code.
 
     Parameters
     ----------
@@ -217,7 +217,7 @@ def _worn_share(corrosion: float, diameter: float) -> float:
         )
     if corrosion >= diameter:
         raise InputError(
-            f"corrosion of {1000 * corrosion:g} mm eats the line of {1000 * diameter:g} mm",
+            f"corrosion of {1000 * corrosion:g} mm is more than the diameter of the line, {1000 * diameter:g} mm",
             parameter="corrosion",
             remedy="shorten the life or choose a thicker line",
         )
@@ -225,15 +225,15 @@ def _worn_share(corrosion: float, diameter: float) -> float:
 
 
 def check_confirmation(code: DesignCode) -> tuple[Notice, ...]:
-    """Return a notice for values that were not held against the standard itself."""
+    """Return a notice for values that were not compared with the standard itself."""
     unsure = [rule for rule in code.rules if not rule.confirmed]
     if not unsure:
         return ()
     return (
         Notice(
             "code-unconfirmed",
-            f"{len(unsure)} of {len(code.rules)} values of {code.name} ({unsure[0].edition}) were not held against the "
-            "standard itself",
+            f"{len(unsure)} of {len(code.rules)} values of {code.name} ({unsure[0].edition}) were not compared with "
+            "the standard itself",
             remedy="compare them with your copy and name the code under 'confirmed'",
             source=unsure[0].source,
         ),

@@ -31,7 +31,7 @@ class EnduranceCurve:
     #: ``1`` where ranges are ratios to the breaking load (T-N), ``MPa`` where they are stresses (S-N), ``N`` where they
     #: are forces.
     unit: Literal["1", "MPa", "N"]
-    #: Whether the values were held against the standard itself.
+    #: Whether the values were compared with the standard itself.
     confirmed: bool
     source: str
 

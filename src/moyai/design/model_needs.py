@@ -37,7 +37,7 @@ def model_need(row: ScaledQuantity, value: float, unit: str, scale: Scale, *, li
     row : ScaledQuantity
         The quantity in both sizes.
     value, unit : float, str
-        What is at hand for the model; any unit of the same dimension.
+        What is given for the model; any unit of the same dimension.
     scale : Scale
         Ratios.
     line_length : float, optional

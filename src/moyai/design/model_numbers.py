@@ -38,9 +38,9 @@ class ModelNumber:
     """A dimensionless number in both sizes."""
 
     name: str
-    #: [-].
+    #: Number of the prototype [-].
     prototype: float
-    #: [-].
+    #: Number of the model [-].
     model: float
     #: Whether Froude scaling with scaled stiffness keeps it.
     kept: bool

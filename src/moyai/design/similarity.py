@@ -1,7 +1,7 @@
 """Similarity of models: Froude with the Cauchy number kept, for any quantity of any structure.
 
 Gravity waves fix the scale of time by that of length; if stretch is to be as large as in the prototype, stiffness must
-follow the forces: EA by the cube of the length ratio. What a unit is made of tells its scale, so a quantity of a
+follow the forces: EA by the cube of the length ratio. What a unit is made of gives its scale, so a quantity of a
 curtain, a breakwater or a cage is converted by its unit alone.
 """
 
@@ -79,9 +79,9 @@ class ScaledQuantity:
     name: str
     #: See ``name``.
     unit: str
-    #: Values in that unit.
+    #: Value of the prototype, in that unit.
     prototype: float
-    #: Values in that unit.
+    #: Value of the model, in that unit.
     model: float
     #: Prototype over model [-].
     ratio: float
@@ -118,7 +118,7 @@ def cauchy_number(axial_stiffness: float, water: Water) -> float:
 class StretchMatch:
     """How to give a model line the stretch of the prototype."""
 
-    #: ``wanted``, ``available``: EA that the model needs, EA of the line at hand [N].
+    #: ``wanted``, ``available``: EA that the model needs, EA of the line given [N].
     wanted: float
     #: See ``wanted``.
     available: float
@@ -137,7 +137,7 @@ def match_stretch(
     Parameters
     ----------
     prototype_stiffness, model_stiffness : float
-        EA of the prototype's line and of the line that is at hand for the model [N].
+        EA of the prototype's line and of the line that is given for the model [N].
     model_length : float
         Length of the model line [m].
     scale : Scale

@@ -30,7 +30,7 @@ class KernelArrays:
     #: [kg], stiffness [N/m] and damping [N s/m] of the bed, height [m], form, 1 where a component is free; shape (12,
     #: n).
     nodes: Array
-    #: Rows of ``BAR_ROWS``: length [m], EA/L0 [N/m], BA/L0 [N s/m], least tension (0, or -1e300 of bars that bear
+    #: Rows of ``BAR_ROWS``: length [m], EA/L0 [N/m], BA/L0 [N s/m], least tension (0, or -1e300 of bars that carry
     #: compression), rho/2 Cd d l, ..., radius [m], one over the mass of half a bar; shape (13, m).
     bars: Array
     start: IntArray

@@ -73,7 +73,7 @@ class Ground:
             a, b = odd[0]
             said = "twice" if known[a, b] > 1 else "nowhere"
             raise InputError(
-                f"x = {x[a]:g} m, y = {y[b]:g} m stands {said} in a grid of {x.size} by {y.size} lines",
+                f"x = {x[a]:g} m, y = {y[b]:g} m is given {said} in a grid of {x.size} by {y.size} lines",
                 parameter="bed.ground", allowed="every crossing of the grid lines once",
             )  # fmt: skip
         level = np.empty(known.shape)

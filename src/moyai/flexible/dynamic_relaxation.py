@@ -37,7 +37,7 @@ def relax_network(
     """Find a net, its ropes and floats at rest in a steady current.
 
     Every node gets the mass for which a pseudo step of one is stable, and the motion is stopped whenever its kinetic
-    energy has passed a peak [eq:cage-relaxation]. It asks for no matrix and finds slack nets, whose tangent is
+    energy has passed a peak [eq:cage-relaxation]. It requires no matrix and finds slack nets, whose tangent is
     singular.
 
     Parameters

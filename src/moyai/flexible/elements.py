@@ -104,13 +104,13 @@ class BarType:
     volume_per_length: float = -1.0
     #: Internal damping BA [N s]: force per rate of strain. A property of the material, not of the mesh.
     viscosity: float = 0.0
-    #: Force per length rho/2 C d u|u| [-].
+    #: Drag coefficient C of the force per length rho/2 C d u|u| across the bar [-].
     drag_normal: float = 0.0
-    #: Force per length rho/2 C d u|u| [-].
+    #: The same along the bar [-].
     drag_tangential: float = 0.0
-    #: On the displaced volume [-].
+    #: Added-mass coefficient across the bar, on the displaced volume [-].
     added_mass_normal: float = 0.0
-    #: On the displaced volume [-].
+    #: The same along the bar [-].
     added_mass_tangential: float = 0.0
     #: EI [N m2].
     bending_stiffness: float = 0.0
@@ -237,9 +237,9 @@ class Nodes:
 class Bars:
     """The bars: straight, elastic, each of one type."""
 
-    #: Nodes; shape (m,).
+    #: Node at the start of each; shape (m,).
     start: IntArray
-    #: Nodes; shape (m,).
+    #: Node at the end of each; shape (m,).
     end: IntArray
     #: Unstretched lengths [m]; shape (m,).
     length: Array

@@ -231,13 +231,13 @@ def simulate_together(
     duration, output_step : float
         Length of the runs and spacing of their rows [s], as in :func:`moyai.flexible.simulation.simulate`.
     interval : float, optional
-        Time between two evaluations of the water [s]; what each member asks for when left out. Members that share it
+        Time between two evaluations of the water [s]; what each member requires when left out. Members that share it
         are marched together.
     start : State, optional
         Where all start; as built, without speed, when left out.
     step, safety, load_steps : float, float, int
-        As in :func:`moyai.flexible.simulation.simulate`. A member whose drag asks for a shorter load interval is run
-        again with loads at every step, and one that asks for a shorter step by itself.
+        As in :func:`moyai.flexible.simulation.simulate`. A member whose drag requires a shorter load interval is run
+        again with loads at every step, and one that requires a shorter step by itself.
     drag_rate : float
         Rate at which drag is likely to damp the quickest part [1/s], for instance that of a run by itself: the first
         load interval suits it.
@@ -303,7 +303,7 @@ def simulate_together(
         np.full((count, rows + 1, nodes.size, 3), np.nan), np.full((count, rows + 1, bars.size), np.nan),
         np.full((count, rows + 1, bars.size), np.nan), np.full(count, np.nan), np.zeros(count, dtype=np.int64),
     )  # fmt: skip
-    # members by what they ask for: waves or not, how often the water is found, loads at every step or not
+    # members by what they require: waves or not, how often the water is found, loads at every step or not
     waiting: dict[tuple[bool, float, bool], list[int]] = {}
     for number, member in enumerate(members):
         own = math.inf if member.flow.steady else interval or member.flow.update_interval

@@ -55,15 +55,15 @@ def refuse_impossible(network: Network) -> None:
             worst = int(np.flatnonzero(own)[np.argmax((weight - lift)[own])])
             raise ConvergenceError(
                 f"no equilibrium: nothing holds the {int(own.sum())} nodes around {name_of_node(network, worst)}, they "
-                f"weigh {spoken(heavy - most, 'N')} more than the water bears and sink for ever",
-                parameter="statics", allowed="weight that floats, hangs or stands",
+                f"weigh {spoken(heavy - most, 'N')} more than their buoyancy and sink without end",
+                parameter="statics", allowed="weight that floats, hangs or rests on the bed",
                 remedy="add an anchor, a bed or buoyancy",
             )  # fmt: skip
         if least > heavy + slack:
             worst = int(np.flatnonzero(own)[np.argmax(always[own])])
             raise ConvergenceError(
-                f"no equilibrium: the volume of {name_of_node(network, worst)} lifts all {int(own.sum())} nodes that "
-                f"hang on it by {spoken(least - heavy, 'N')}, and without a height it never leaves the water",
+                f"no equilibrium: the volume of {name_of_node(network, worst)} lifts all {int(own.sum())} nodes "
+                f"attached to it by {spoken(least - heavy, 'N')}, and without a height it never leaves the water",
                 parameter="statics", allowed="lift that an anchor holds, or that ends at the surface",
                 remedy="give the float its height, or add an anchor",
             )  # fmt: skip
@@ -80,8 +80,8 @@ def advice(network: Network, place: Array, flow: Flow) -> str:
         own = np.flatnonzero(part == drifting[0])
         axes = " and ".join(name for name, free in zip("xy", loose[drifting[0], :2], strict=True) if free)
         return (
-            f"nothing holds the {own.size} nodes around {name_of_node(network, int(own[0]))} along {axes}: the current "
-            "carries them away (friction of the bed is left out of statics); add an anchor"
+            f"nothing holds the {own.size} nodes around {name_of_node(network, int(own[0]))} along {axes}: the "
+            "current moves them away (friction of the bed is left out of statics); add an anchor"
         )
     if loose[:, 2].any():
         return "nothing holds the network vertically: add an anchor, a bed or a float with a height"
@@ -89,8 +89,8 @@ def advice(network: Network, place: Array, flow: Flow) -> str:
     extent = float(np.max(np.ptp(network.nodes.position, axis=0))) + float(np.max(network.bars.length, initial=0.0))
     if float(away.max()) > 3.0 * extent:
         return (
-            f"{name_of_node(network, int(np.argmax(away)))} went {float(away.max()):.3g} m away: something heavy or "
-            "light hangs on what is too soft to bear it"
+            f"{name_of_node(network, int(np.argmax(away)))} went {float(away.max()):.3g} m away: a heavy or buoyant "
+            "part is attached to elements too soft to hold it"
         )
     mechanism = _mechanism(network, place, flow, extent)
     if mechanism:

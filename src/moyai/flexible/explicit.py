@@ -119,7 +119,7 @@ class ExplicitRun:
         self.packed.node_rows(WU, 7)[:] = self.water
         self._call_march(0, _NOTHING, np.zeros_like(self.water), 0, 0.0, (0.0, 1, 1), self.near_surface(), math.inf)
         self.safety = self._usual_safety() if safety is None else safety
-        #: Largest part of the step that this network bears of which use was made, by a step given by hand.
+        #: Largest part of the step that is stable for this network, of which use was made, by a step given by hand.
         self.overstep = 0.0
         if network.blocks is not None or network.sheets is not None or self._most_added() > MOST_ADDED:
             self.load_steps = min(load_steps, LOAD_STEPS_OF_LIGHT)
@@ -315,7 +315,7 @@ class ExplicitRun:
             good = self._march(asked, first + done, (left, row_interval - left), wanted, saved, idle < MOST_IDLE)
             broken = int(self.watch.broken[0])
             if broken >= 0:
-                # drag has outrun the step within a row: what is left of it goes on with a shorter one
+                # drag has outrun the step within a row: what is left of it continues with a shorter one
                 idle = idle + 1 if good == -1 and broken == 0 else 0
                 left = (left if good == -1 else row_interval) - broken * self.step
                 done += -good - 1
@@ -329,7 +329,7 @@ class ExplicitRun:
     def _march(
         self, rows: int, first: int, interval: tuple[float, float], wanted: float | None, saved: Any, watchful: bool
     ) -> int:
-        """March with one step; a negative number of good rows asks for another one.
+        """March with one step; a negative number of good rows means that another step is needed.
 
         ``interval`` is that of the rows, and what is gone of the only one already; a row is broken off when
         ``watchful``.

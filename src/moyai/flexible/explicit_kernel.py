@@ -270,7 +270,7 @@ def march(
     points, 2 turn of the added mass, 3 the last load interval, 4 whether loads are known, 5 whether the velocities
     stand half a step behind, and from ``LEDGER`` on the impulses on driven points. Returns the number of good rows,
     fewer than asked for when values are no longer finite, and negative when drag has outrun the step, which has to be
-    chosen anew before the march goes on: at the end of that row, or within it, which then does not count as good.
+    chosen anew before the march continues: at the end of that row, or within it, which then does not count as good.
 
     With no row to do it evaluates the loads of the present state and no more, with one row less than none it writes the
     row of the start: what is called once a run is then compiled but once, as a part of the march.

@@ -102,7 +102,7 @@ def section_energy(A: Array, blocks: Blocks) -> float:
 def screens(A: Array, count: int, panels: Panels, half_density: float, ahead: float, step: float) -> None:
     """Write the loads of net panels as R - C velocity and inverse mass blocks that hold half a step of C.
 
-    The step then takes the damping at the mean of its velocities, so that light nets in fast water ask for no shorter
+    The step then takes the damping at the mean of its velocities, so that light nets in fast water require no shorter
     step [eq:cage-panel-implicit].
     """
     if panels is None:

@@ -83,7 +83,7 @@ class Failing:
         for item, kind in zip(failures, kinds):
             if kind.bending_stiffness > 0.0 or kind.curve is not None or kind.slow is not None:
                 raise InputError(
-                    f"line {item.line!r} parts, and bends, follows a curve or gives way slowly", parameter="failures",
+                    f"line {item.line!r} is to part, and has bending stiffness, a curve or creep", parameter="failures",
                     allowed="lines of linear bars without bending stiffness",
                 )  # fmt: skip
         length = own.length[bars]

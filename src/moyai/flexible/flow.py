@@ -65,7 +65,7 @@ class Flow:
         given.setflags(write=False)
         object.__setattr__(self, "velocity", given)
         if self.waves is not None and self.waves.water is None:
-            raise InputError("the waves do not know their water", parameter="flow.waves", allowed="waves with water")
+            raise InputError("the waves have no water", parameter="flow.waves", allowed="waves with water")
         if not (math.isfinite(self.ramp) and self.ramp >= 0.0):
             raise InputError(f"ramp of the flow is {self.ramp:g} s", parameter="flow.ramp", allowed="0 or more")
         if not (math.isfinite(self.wave_ramp) and self.wave_ramp >= 0.0):

@@ -81,12 +81,12 @@ def _notice(name: str, front: Front, explicit: bool) -> Notice:
     if front.fall > 0.0:
         return Notice(
             "landing-front",
-            f"{said}, and its nodes come down on the bed at up to {front.fall:.3g} m/s: lumps that stop there send "
-            "fronts that a smooth line has not, and peaks, those at the ends too, may be too high",
+            f"{said}, and its nodes come down on the bed at up to {front.fall:.3g} m/s: lumps that stop there "
+            "produce spurious tension waves, and peaks, those at the ends too, may be too high",
             front.within,
             front.travel,
             "warning",
-            "twice the segments: such fronts fall with the square of the length of bars; a sensitivity run tells",
+            "twice the segments: such fronts fall with the square of the length of bars; a sensitivity run shows it",
             "wave of a node that stops, sqrt(EA m) times its speed along the bar",
         )
     return Notice(
@@ -95,9 +95,9 @@ def _notice(name: str, front: Front, explicit: bool) -> Notice:
         front.within,
         front.travel,
         "warning" if fine and explicit else "information",
-        "equal bars and safety=1, with rows that whole steps of the wave along a bar fill, carry the front "
-        "without error; hold the peak against a finer mesh"
+        "equal bars and safety=1, with an output step that is a whole multiple of the travel time of the wave along "
+        "a bar, reproduce the front without error; compare the peak with that of a finer mesh"
         if fine
-        else "hold the peak against a shorter step and a finer mesh; a sensitivity run does both",
+        else "compare the peak with those of a shorter step and a finer mesh; a sensitivity run does both",
         "one-dimensional wave equation, central differences at Courant number 1",
     )

@@ -24,7 +24,7 @@ from moyai.flexible.tableaus import TABLEAUS
 from moyai.flexible.watch import watch_of
 from moyai.flexible.worn_rope import slow_parts
 
-#: Error of one step that is borne: of tensions over the largest tension, of places over the length of a bar.
+#: Error of one step that is accepted: of tensions over the largest tension, of places over the length of a bar.
 TOLERANCE = 1e-3
 
 

@@ -312,7 +312,7 @@ def _read_gauges(before: Any, now: Any, step: float, bars: Any, gauges: Any) -> 
     """Keep the highest rise of the tension of some bars within two blocks of time, and their highest tension.
 
     A gauge holds: lowest tension in the block before, in this block, time in this block, length of a block [s], highest
-    rise, highest tension. A step longer than two blocks tells nothing: the error estimate made it smooth.
+    rise, highest tension. A step longer than two blocks shows nothing: the error estimate made it smooth.
     """
     for g in range(bars.size):
         first, last, block = before[bars[g]], now[bars[g]], gauges[g, 3]

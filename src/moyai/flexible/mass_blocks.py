@@ -44,7 +44,7 @@ class MassBlocks:
     def __post_init__(self) -> None:
         if self.convective and not self.turning:
             raise InputError(
-                "held frames know no forces of turning",
+                "held frames have no forces of rotation",
                 parameter="blocks.convective",
                 allowed="false with turning false",
             )
@@ -89,9 +89,9 @@ class MassBlocks:
 class PackedBlocks:
     """Blocks ready for the kernels."""
 
-    #: As in :class:`MassBlocks`.
+    #: Nodes, as in :class:`MassBlocks`.
     nodes: IntArray
-    #: As in :class:`MassBlocks`.
+    #: Guides, as in :class:`MassBlocks`.
     guides: IntArray
     #: Directions, roots of the stretch and first lengths of the guides, shares of the own mass in the inverse; the
     #: kernels turn them; shape (g, k, 6).
@@ -140,7 +140,7 @@ def pack_blocks(blocks: MassBlocks | None, place: ArrayLike, mass: Array, free: 
     way = position[:2, blocks.guides[..., 1]] - position[:2, blocks.guides[..., 0]]
     frames[..., kernel.LENGTH] = np.hypot(way[0], way[1])
     if np.any(frames[..., kernel.LENGTH] <= 0.0):
-        raise InputError("guides of a section stand in one place", parameter="blocks.guides", allowed="apart in plan")
+        raise InputError("guides of a section are at one place", parameter="blocks.guides", allowed="apart in plan")
     kernel.set_frames(blocks.nodes, blocks.guides, frames, position.ravel(), 0, position.shape[1], False)
     light[2, blocks.nodes], light[3, blocks.nodes] = frames[..., kernel.SIN], -frames[..., kernel.COS]
     own = mass[blocks.nodes]

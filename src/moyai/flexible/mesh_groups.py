@@ -14,9 +14,9 @@ from moyai.flexible.elements import BarType
 class GroupedBars:
     """Bars that stand for the twines of a net."""
 
-    #: Nodes.
+    #: Node at the start.
     start: IntArray
-    #: Nodes.
+    #: Node at the end.
     end: IntArray
     #: Unstretched [m].
     length: Array

@@ -32,9 +32,9 @@ class Network:
         the bed, driven nodes without motion.
     """
 
-    #: The parts.
+    #: Nodes of the network.
     nodes: Nodes
-    #: The parts.
+    #: Bars of the network.
     bars: Bars
     #: Depth, density, gravity.
     water: Water
@@ -196,7 +196,7 @@ def _check_network(network: Network) -> None:
         # anchors may lie in the bed; whatever moves may not start deep in it
         if network.bed.ground is not None and network.blocks is not None:
             raise InputError(
-                "sections with added mass of their own lie on a flat bed only", parameter="bed.ground",
+                "sections with a stated added mass lie on a flat bed only", parameter="bed.ground",
                 allowed="no ground",
             )  # fmt: skip
         level = network.bed.level_at(nodes.position)
@@ -252,7 +252,7 @@ def _check_blocks(network: Network) -> None:
         and np.isin(sheets.triangles[np.asarray(sheets.added_mass_per_area) > 0.0], blocks.nodes).any()
     ):
         raise InputError(
-            "a sheet with an added mass of its own has nodes in sections of added mass: the water would count twice",
+            "a sheet with a stated added mass has nodes in sections of added mass: the water would be counted twice",
             parameter="sheets.added_mass_per_area",
             allowed="0 where sections hold the added mass",
         )

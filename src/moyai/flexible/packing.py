@@ -75,7 +75,7 @@ def pack(arrays: KernelArrays) -> Packed:
             allowed=f"up to {rows_of.ROW - 2 * _LANES} in the explicit scheme",
         )
     memory = _untouched(rows_of.ROWS_IN_MEMORY * rows_of.ROW)
-    # a bar between neighbours goes on the spine, the first one for each pair; its direction may be reversed
+    # a bar between neighbours continues the spine, the first one for each pair; its direction may be reversed
     low = np.minimum(arrays.start, arrays.end)
     neighbours = (np.abs(arrays.end - arrays.start) == 1) & (arrays.curve < 0)
     spine = np.zeros(bars, dtype=bool)

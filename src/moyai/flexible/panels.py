@@ -40,7 +40,7 @@ class PanelLaw:
     #: For results.
     name: str
     #: ``along``, ``normal``: Coefficients a (along the flow) and b (along the normal) of ``F = (a w + b n (n.w)) |w|
-    #: rho A / 2`` [eq:cage-panel-force]; one row when the law knows no Reynolds number; shape (speeds, cosines).
+    #: rho A / 2`` [eq:cage-panel-force]; one row when the law has no Reynolds number; shape (speeds, cosines).
     along: Array
     #: See ``along``.
     normal: Array

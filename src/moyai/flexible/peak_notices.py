@@ -1,4 +1,4 @@
-"""What makes the peaks of a run doubtful: fronts, ropes beyond their curves, long steps, energy from nowhere.
+"""What makes the peaks of a run doubtful: fronts, ropes beyond their curves, long steps, energy balance error.
 
 Runs of networks alone and of networks with bodies are reported by the same functions.
 """
@@ -34,7 +34,7 @@ def peak_notices(
     peaks : ndarray, shape (k, b)
         Their highest tensions between rows [N].
     check : IdentityCheck
-        Energy from nowhere.
+        Energy balance error.
     finished : bool
         Whether the run came to its end; one that was stopped has said why.
     """
@@ -64,8 +64,8 @@ def beyond_curves(network: Network, bars: NDArray[np.int64], peaks: Array) -> tu
             found.append(
                 Notice(
                     "beyond-rope-curve",
-                    f"{kind.name!r} bears up to {highest:.4g} N, its rope curve ends at {last:.4g} N: "
-                    "its last slope goes on",
+                    f"{kind.name!r} carries up to {highest:.4g} N, its rope curve ends at {last:.4g} N: "
+                    "its last slope is used beyond",
                     highest,
                     last,
                     "warning",
@@ -87,7 +87,8 @@ def _doubts(network: Network, run: Run, check: IdentityCheck, finished: bool) ->
         found.append(
             Notice(
                 "step-not-stable",
-                f"the step of {run.step:.4g} s is {overstep:.3g} times what the network bears: peaks may be wrong",
+                f"the step of {run.step:.4g} s is {overstep:.3g} times the stable step of the network: peaks may be "
+                "wrong",
                 overstep,
                 1.0,
                 "warning",
@@ -98,7 +99,8 @@ def _doubts(network: Network, run: Run, check: IdentityCheck, finished: bool) ->
         found.append(
             Notice(
                 "energy-from-nowhere",
-                f"{100.0 * check.value:.3g} % of the energy came from nowhere; peaks may be too high",
+                f"{100.0 * check.value:.3g} % of the energy is spurious (error of the energy balance); peaks may be "
+                "too high",
                 check.value,
                 check.tolerance,
                 "warning",
@@ -121,5 +123,5 @@ def advice(network: Network) -> str:
 
 
 def stable_step(run: Run) -> float:
-    """Return the largest step that a run bears now [s], NaN once its values are not finite."""
+    """Return the largest stable step of a run now [s], NaN once its values are not finite."""
     return run.limit()[0] if np.isfinite(run.place).all() else np.nan

@@ -177,7 +177,7 @@ def more_viscous(network: Network) -> Network:
     """Return the network with twice its viscosity, or, when it has none at all, with some that shows what it would do.
 
     That is a twentieth of critical damping on the mesh, 0.05 l sqrt(EA m) of the longest bar of each type; a double of
-    nothing would show a peak that does not hang on viscosity.
+    nothing would show a peak that is not attached to viscosity.
     """
     bars, sheets = network.bars, network.sheets
     damped = sheets is not None and bool(np.any(np.asarray(sheets.damping_time) > 0.0))

@@ -103,7 +103,7 @@ class RingArrays:
     def hinges(self) -> tuple[IntArray, Array]:
         """Node triples and (EI over mean length, 1/l1, 1/l2) of all rings, for bounds of their stiffness.
 
-        EI is raised where a coarse ring that is much stiffer in torsion than in bending asks for it
+        EI is raised where a coarse ring that is much stiffer in torsion than in bending requires it
         [eq:cage-ring-step].
         """
         triples, stiffness = [np.zeros((0, 3), np.int64)], [np.zeros((0, 3))]

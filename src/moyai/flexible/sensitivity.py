@@ -212,7 +212,7 @@ def peak_sensitivity(
     half, _ = peak("half the step", network, start, bar, step=0.5 * step)
     progress("sensitivity", 2, 5)
     finer, state = refined_start(network, 2, start, rest_flow)
-    # a step given by hand is as long as the given mesh bears at most
+    # a step given by hand is the longest that is stable on the given mesh
     shorter = {} if options.get("step") is None else {"step": 0.5 * options["step"]}
     mesh, _ = peak("half the mesh", finer, state, 2 * bar + (1 if last else 0), **shorter)
     progress("sensitivity", 3, 5)

@@ -241,11 +241,11 @@ class Sheets:
 class SheetStress:
     """Stresses of the triangles at one shape [N/m]."""
 
-    #: Components along the threads; shape (t,).
+    #: Component along the warp; shape (t,).
     warp: Array
-    #: Components along the threads; shape (t,).
+    #: Component along the weft; shape (t,).
     weft: Array
-    #: Components along the threads; shape (t,).
+    #: Shear component; shape (t,).
     shear: Array
     #: ``first``, ``second``: Principal stresses, the higher one first; shape (t,).
     first: Array

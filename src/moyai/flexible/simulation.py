@@ -30,7 +30,7 @@ Enough = Callable[[np.ndarray, np.ndarray, np.ndarray], bool]
 
 Method = Literal["explicit", "tr_bdf2", "esdirk4"]
 
-#: Energy from nowhere, as a part of the energy that went through the network: what is called good, and what stops a
+#: Energy balance error, as a part of the energy that went through the network: what is called good, and what stops a
 #: run.
 ENERGY_TOLERANCE, ENERGY_STOP = 0.02, 0.25
 #: Longest time over which step, drag and nearness of the surface are taken as they were at its start [s].
@@ -160,7 +160,7 @@ def simulate(
     step : float, optional
         Time step [s], rounded down to fill an output step; when left out the largest stable one times ``safety``, or,
         for
-        the implicit methods, what ``tolerance`` asks for.
+        the implicit methods, what ``tolerance`` requires.
     safety : float, optional
         Part of the largest stable step, above 0, at most 1. When left out 0.95, or 0.5 where bars may go slack with
         hardly any
@@ -352,11 +352,11 @@ def _failure(
     """Return when, where and why a run had to stop, and what helps."""
     if isinstance(run, ImplicitRun) and not_finite:
         return (
-            f"stopped at t = {run.time:g} s: no step of {run.step:.3g} s or less goes on, {run.force_left:.3g} N are "
+            f"stopped at t = {run.time:g} s: no step of {run.step:.3g} s or less converges, {run.force_left:.3g} N are "
             f"left at {name_of_node(network, run.worst)}{advice(network)}"
         )
     worst = int(np.argmax(np.abs(np.nan_to_num(run.speed, nan=np.inf)).max(axis=0)))
-    why = f"energy of {gain:.3g} J came from nowhere"
+    why = f"energy balance error of {gain:.3g} J"
     if not_finite or wild:
         why = "values are no longer finite" if not_finite else "a node outruns all elastic waves"
     return (
@@ -383,7 +383,7 @@ def _history(
     total = energy[:, 0] + energy[:, 1]
     gain = float(np.max(total - total[0] - (energy[:, 2] - energy[0, 2]))) if last else math.nan
     check = IdentityCheck(
-        "energy from nowhere",
+        "energy balance error",
         max(gain, 0.0) / throughput if throughput > 0.0 else 0.0,
         ENERGY_TOLERANCE,
         "rise of kinetic and elastic energy beyond the work done, over the energy that went through the network",

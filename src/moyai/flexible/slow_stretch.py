@@ -1,7 +1,7 @@
 """Ropes that give way slowly: a fast spring in series with a slow one parallel to a dashpot [eq:flexible-slow-stretch].
 
 The slow stretch is a change of the unstretched length that a bar has at the moment; it is brought up to date between
-the calls of a run, exactly for a tension that stays. At rest the dashpot bears nothing and both springs act.
+the calls of a run, exactly for a tension that stays. At rest the dashpot carries nothing and both springs act.
 """
 
 from __future__ import annotations

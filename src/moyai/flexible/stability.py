@@ -107,11 +107,11 @@ def step_limit(
     rings: tuple[IntArray, Array] | None = None,
     sheets: tuple[Array, IntArray] | None = None,
 ) -> tuple[float, int]:
-    """Return a step that central differences bear in any state of the bars, and the node that sets it.
+    """Return a step that is stable for central differences in any state of the bars, and the node that sets it.
 
     Twice the stiffness of the bars at a node bounds the whole matrix from above, block by block, so the largest
     eigenvalue of ``2 M^-1 sum k e e^T`` over the nodes bounds the highest frequency; the same with the viscosities
-    bounds the damping. Lagged viscosity then asks for ``dt^2 w^2 + 2 dt c <= 4`` to be stable and for
+    bounds the damping. Lagged viscosity then requires ``dt^2 w^2 + 2 dt c <= 4`` to be stable and for
     ``dt^2 w^2 + 2.25 dt c <= 4.05`` to damp the zigzag of the fastest mode by a fifth in every step
     [eq:flexible-step-limit].
 

@@ -73,7 +73,7 @@ def solve_equilibrium(
     Newton's method on places and tensions together in pseudo-time steps [eq:flexible-relaxation]; where it fails, again
     with smaller turns, with a stiffness of sheets or a current that rises from nothing, led by dynamic relaxation
     (:func:`moyai.flexible.dynamic_relaxation.relax_network`), and last by the true motion, stopped at every peak of
-    its speed. The bed bears without friction.
+    its speed. The bed has no friction.
 
     Parameters
     ----------
@@ -258,7 +258,7 @@ def _shares(problem: Relaxation, place: Array) -> list[float]:
 
 
 def _relaxed(network: Network, place: Array, flow: Flow) -> Array:
-    """Lead a network by dynamic relaxation, which asks for no matrix; ``place`` again where that runs away."""
+    """Lead a network by dynamic relaxation, which requires no matrix; ``place`` again where that runs away."""
     from moyai.flexible.dynamic_relaxation import relax_network
 
     start = State(0.0, place, np.zeros_like(place))

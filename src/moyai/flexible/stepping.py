@@ -1,4 +1,4 @@
-"""A network that is stepped from outside: points go where a body takes them, and the network tells what they feel.
+"""A network that is stepped from outside: points go where a body takes them, and the network gives what they feel.
 
 The explicit scheme does the small steps; a step that is tried again with a better path starts from the last accepted
 state. See :mod:`moyai.core.attachment` for the two sides of the joint and docs/theory/coupled.md.
@@ -76,11 +76,11 @@ class StepRecord:
     tension_peak: Array
     #: See ``tension``.
     tension_trough: Array
-    #: As in :class:`moyai.flexible.result.History` [J]; shape (k,).
+    #: Kinetic energy, as in :class:`moyai.flexible.result.History` [J]; shape (k,).
     kinetic_energy: Array
-    #: As in :class:`moyai.flexible.result.History` [J]; shape (k,).
+    #: Elastic energy [J]; shape (k,).
     elastic_energy: Array
-    #: As in :class:`moyai.flexible.result.History` [J]; shape (k,).
+    #: Work done on the network [J]; shape (k,).
     work: Array
 
 
@@ -189,7 +189,7 @@ class SteppedNetwork:
         for name in network.motion_names:
             if name not in motions:
                 raise InputError(
-                    f"the point {name!r} is driven, but no body carries it and no motion is given for it",
+                    f"the point {name!r} is driven, but belongs to no body, and no motion is given for it",
                     parameter="motions",
                     allowed=", ".join(network.motion_names),
                 )
@@ -394,14 +394,14 @@ def carried_nodes(network: Network, names: Sequence[str]) -> IntArray:
         node = network.points.get(name)
         if node is None or network.nodes.kind[node] != DRIVEN:
             raise InputError(
-                f"a body carries the point {name!r}, which "
+                f"a body names the point {name!r}, which "
                 + ("the network does not have" if node is None else "is not a driven point"),
                 parameter=f"bodies.points.{name}",
                 allowed=", ".join(driven) or "driven points",
             )
         if node in nodes:
             raise InputError(
-                f"two bodies carry the point {name!r}", parameter=f"bodies.points.{name}", allowed="one body"
+                f"two bodies have the point {name!r}", parameter=f"bodies.points.{name}", allowed="one body"
             )
         nodes.append(int(node))
     return np.array(nodes, dtype=np.int64)

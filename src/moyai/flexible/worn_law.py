@@ -1,4 +1,4 @@
-"""The law of a polyester rope that remembers its highest mean tension (Syrope) [eq:flexible-worn]."""
+"""The law of a polyester rope that depends on its highest mean tension (Syrope) [eq:flexible-worn]."""
 
 from __future__ import annotations
 
@@ -87,7 +87,7 @@ class WornRope:
         return np.asarray(top - highest / self.k1 if absolute else self.k1 * top), top
 
     def strain(self, mean: Array, highest: Array) -> Array:
-        """Return the strain at rest under mean tensions of ropes that have borne the highest ones."""
+        """Return the strain at rest under mean tensions of ropes that have carried the highest ones."""
         left, top = self._ends(highest)
         part = np.clip(mean / np.maximum(highest, 1e-300), 0.0, 1.0)
         if self.form == "quadratic":

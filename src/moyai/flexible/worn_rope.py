@@ -1,4 +1,4 @@
-"""Polyester ropes whose stretch depends on the highest mean tension that they have borne (Syrope) [eq:flexible-worn].
+"""Polyester ropes whose stretch depends on the highest mean tension that they have carried (Syrope) [eq:flexible-worn].
 
 At rest a rope follows its working curve up to that tension, beyond it the curve of the new rope; quick changes have
 the stiffness alpha + beta times the mean tension. A dashpot lies between: the mean tension, which is that of the slow

@@ -31,9 +31,9 @@ def roll_notices(roll: float, *, freeboard: float, draught: float, beam: float, 
         Notice(
             "roll-beyond-linear",
             f"{where}: a roll of {math.degrees(roll):.3g} deg {what}, which begins at {math.degrees(limit):.3g} deg; "
-            "restoring is linear and goes on straight: roll, and tensions in this sea, are rough",
+            "the linear restoring moment is extrapolated: roll, and tensions in this sea, are approximate",
             value=roll, limit=limit, severity="warning",
-            remedy="raise the deck, widen the section or damp roll",
+            remedy="raise the deck, widen the section or damp roll", unit="rad",
         ),
     )  # fmt: skip
 
@@ -67,7 +67,7 @@ def check_statics(statics: Hydrostatics, *, vertical_pull: float, gravity: float
                 ),
                 value=abs(imbalance),
                 limit=IMBALANCE_LIMIT,
-                remedy="give mass or draught alone and let the program find the other",
+                remedy="give mass or draught alone; the program computes the other",
             )
         )
     if statics.metacentric_height <= 0.0:

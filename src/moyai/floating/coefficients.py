@@ -38,9 +38,9 @@ class Hydrodynamics:
 
     #: Angular frequencies, increasing [rad/s]; shape (n,).
     omega: Array
-    #: ``[frequency, influenced, radiating]`` [kg, kg m, kg m2 and per second]; shape (n, m, m).
+    #: Added mass ``[frequency, influenced, radiating]`` [kg, kg m, kg m2]; shape (n, m, m).
     added_mass: Array
-    #: ``[frequency, influenced, radiating]`` [kg, kg m, kg m2 and per second]; shape (n, m, m).
+    #: Radiation damping in the same order [kg/s, kg m/s, kg m2/s]; shape (n, m, m).
     radiation_damping: Array
     #: Complex force per unit wave amplitude [N/m, N]; shape (n, h, m).
     excitation: ComplexArray
@@ -92,7 +92,7 @@ class Hydrodynamics:
 
     @classmethod
     def of_headings(cls, dataset: xr.Dataset) -> tuple[Hydrodynamics, ...]:
-        """Take a dataset of one metre apart by heading, each with its own radiation where the dataset tells it."""
+        """Take a dataset of one metre apart by heading, each with its own radiation where the dataset gives it."""
         out = []
         for index in range(dataset.sizes["wave_direction"]):
             one = dataset.isel(wave_direction=[index])

@@ -14,7 +14,7 @@ from moyai.core.errors import InputError
 
 @dataclass(frozen=True)
 class Decay:
-    """What a free decay tells about one mode."""
+    """What a free decay shows of one mode."""
 
     #: Mean damped period [s].
     period: float

@@ -47,9 +47,9 @@ class DriftProblem:
 
     #: Coefficients of the whole unit with the far field; the loop uses heading number ``heading_index``.
     hydrodynamics: Hydrodynamics
-    #: Shape (m, m).
+    #: Mass matrix; shape (m, m).
     inertia: Array
-    #: Shape (m, m).
+    #: Hydrostatic stiffness; shape (m, m).
     hydrostatic_stiffness: Array
     mooring: Mooring
     water: Water
@@ -115,7 +115,7 @@ def _answer(
 ) -> _State:
     """Return the motions about the offset of a given drift, and the drift that they cause.
 
-    ``near`` is the state in a drift nearby, from which the linearisation goes on; ``held`` is what :func:`_held` gives.
+    ``near`` is the state in a drift nearby, from which the linearisation continues; ``held`` is that of :func:`_held`.
     """
     offset, stiffness = held or _held(problem, drift, start)
     total = problem.hydrostatic_stiffness + stiffness

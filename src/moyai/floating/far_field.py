@@ -20,9 +20,9 @@ from moyai.sea.water import Water
 class FarField:
     """Waves far from the moving section and what they cost, per frequency and heading."""
 
-    #: Complex coefficients of the moving body; shape (n, h).
+    #: Complex reflection coefficient of the moving body; shape (n, h).
     reflection: ComplexArray
-    #: Complex coefficients of the moving body; shape (n, h).
+    #: Complex transmission coefficient of the moving body; shape (n, h).
     transmission: ComplexArray
     #: E_L = 1 - |R|^2 - |T|^2; shape (n, h).
     loss: Array
@@ -143,7 +143,7 @@ def _driven_fraction(motions: Motions, water: Water, length: float) -> Array:
 def energy_check(
     far: FarField, motions: Motions, water: Water, length: float, tolerance: float = 1e-6
 ) -> IdentityCheck:
-    """Hold the loss of the far field against the work of the damping: both must be E_L [eq:floating-energy]."""
+    """Compare the loss of the far field with the work of the damping: both must be E_L [eq:floating-energy]."""
     work = dissipated_fraction(motions.omega, motions.heading, motions.velocity, motions.damping, water, length)
     if motions.drag_excitation is not None:
         work = work - _driven_fraction(motions, water, length)

@@ -137,7 +137,7 @@ def solve_motions(
     water_motion : ndarray (n, h, k) or None
         What the water does in the measures of ``quadratic``, per unit wave amplitude; still water when absent.
     start : Motions or None
-        With a stiffness nearby, from which the iteration goes on.
+        With a stiffness nearby, from which the iteration continues.
     tolerance : float
         Relative change of the velocities at which the iteration ends.
     maximum_iterations : int

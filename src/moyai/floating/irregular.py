@@ -158,7 +158,7 @@ class SeaMotions:
     measure_deviation: Array
     iterations: int
     converged: bool
-    #: What the linearisation was found at; a sea or stiffness nearby goes on from it.
+    #: What the linearisation was found at; a sea or stiffness nearby continues from it.
     state: Array
 
 
@@ -283,7 +283,7 @@ def linearised_in_sea(
     water_motion : ndarray (n, h, k) or None
         What the water does in the measures of ``quadratic``, per unit wave amplitude; still water when absent.
     start : SeaMotions or None
-        With a stiffness nearby and the same frequencies, from which the iteration goes on.
+        With a stiffness nearby and the same frequencies, from which the iteration continues.
     tolerance : float
         Relative change of the standard deviations.
     maximum_iterations : int

@@ -328,7 +328,7 @@ def find_equilibrium(
             if np.linalg.norm(trial_value[active]) < np.linalg.norm(value[active]):
                 moved, turned = (trial - state)[active], (trial_value - value)[active]
                 good = halving == 0 and np.linalg.norm(trial_value[active]) < 0.1 * np.linalg.norm(value[active])
-                # a step that did what the tangent said corrects it; any other asks for a new one
+                # a step that did what the tangent said corrects it; any other requires a new one
                 tangent = tangent + np.outer(turned - tangent @ moved, moved) / (moved @ moved) if good else None
                 state, value, accepted = trial, trial_value, True
                 break

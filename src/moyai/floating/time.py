@@ -76,9 +76,9 @@ class Simulation:
 
     #: [s]; shape (n,).
     time: Array
-    #: Relative to rest [m, rad; per second]; shape (n, m).
+    #: Position relative to rest [m, rad]; shape (n, m).
     position: Array
-    #: Relative to rest [m, rad; per second]; shape (n, m).
+    #: Velocity [m/s, rad/s]; shape (n, m).
     velocity: Array
     #: Of all nonlinear lines, at-rest force included [N, N m]; shape (n, m).
     mooring_force: Array
@@ -364,7 +364,7 @@ def _stepper(
     every: int,
     saved: tuple[Array, ...],
 ) -> tuple[Any, tuple[Notice, ...]]:
-    """Return ``advance(first, steps) -> (status, good steps)`` for the memory at hand, and what there is to say."""
+    """Return ``advance(first, steps) -> (status, good steps)`` for the given memory, and what there is to say."""
     if isinstance(memory, StateSpaceMemory):
         z = np.zeros(len(memory.poles), dtype=np.complex128)
         weights = exponential_weights(memory.poles, step)

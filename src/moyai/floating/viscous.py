@@ -41,9 +41,9 @@ class CornerEdge:
 
     #: (x, z) [m], for a round bilge where the faces would meet.
     point: tuple[float, float]
-    #: The faces on both sides.
+    #: Face before the edge.
     before: EdgeFace
-    #: The faces on both sides.
+    #: Face after the edge.
     after: EdgeFace
     #: C_p, rounding and angle included; the same at every KC for a right angle [eq:viscous-exponent].
     pressure: float

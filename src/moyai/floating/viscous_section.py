@@ -197,7 +197,7 @@ def _edges_of_faces(
             continue
         corners.append(corner)
         if abs(here.turn - 0.5 * math.pi) > ODD_ANGLE:
-            odd.append(math.degrees(math.pi - here.turn))
+            odd.append(math.pi - here.turn)
     return corners, plates, odd
 
 
@@ -254,7 +254,7 @@ def _notices(
                 "viscous-no-edge",
                 "the section has no edge under water that sheds eddies: no viscous damping is computed, and motions "
                 "near resonance have that of the waves alone",
-                remedy="give structure.roll_damping from a decay test, or a fraction of critical damping",
+                remedy="give the roll damping from a decay test, or a fraction of critical damping",
             )
         )
     elif smooth:
@@ -278,15 +278,17 @@ def _notices(
             )
         )
     if odd:
-        worst = max(odd, key=lambda angle: abs(angle - 90.0))
+        worst = max(odd, key=lambda angle: abs(angle - 0.5 * math.pi))
         reported.append(
             Notice(
                 "viscous-angle",
-                f"no law covers corners of {worst:.0f} degrees: the damping of a right angle is used, in proportion to "
+                f"no law covers corners of {math.degrees(worst):.0f} degrees: the damping of a right angle is used, "
+                "in proportion to "
                 "the turn of the outline where that is less",
                 value=worst,
-                limit=90.0,
+                limit=0.5 * math.pi,
                 severity="information",
+                unit="rad",
             )
         )
     if plates:

@@ -103,7 +103,7 @@ def import_notices(dataset: xr.Dataset) -> tuple[Notice, ...]:
 def _relative(violation: np.ndarray, damping: np.ndarray) -> float:
     """Return the largest violation relative to the band maximum of the diagonal terms."""
     peak = np.max(np.abs(np.einsum("nii->ni", damping)), axis=0)
-    # Motions that make no waves (yaw of a body of revolution) are held against a millionth of the others' scale
+    # Motions that make no waves (yaw of a body of revolution) are compared with a millionth of the others' scale
     peak = np.maximum(peak, 1e-6 * peak.max())
     return float(np.max(violation / np.sqrt(peak[:, None] * peak[None, :])))
 

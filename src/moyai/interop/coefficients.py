@@ -214,7 +214,7 @@ def describe(name: str) -> dict[str, str]:
 
 
 def require(source: str, **values: object) -> None:
-    """Refuse when something that the files do not tell was not given; all of them at once.
+    """Refuse when something that the files do not give was not given; all of them at once.
 
     Raises
     ------
@@ -224,7 +224,7 @@ def require(source: str, **values: object) -> None:
     missing = [name for name, value in values.items() if value is None]
     if missing:
         raise InputError(
-            f"{source} does not tell {', '.join(name.replace('_', ' ') for name in missing)}",
+            f"{source} does not give {', '.join(name.replace('_', ' ') for name in missing)}",
             path=", ".join(missing),
             remedy="give " + " and ".join(missing),
         )

@@ -240,7 +240,7 @@ def read_rods(
             )  # fmt: skip
         if (xa, ya, za) != (xb, yb, zb) and not segments:
             # the two ends of a clamp say where it points to
-            notes.append(f"line {row.line}: rod {number} has 0 segments: it stands at its end A and has no length")
+            notes.append(f"line {row.line}: rod {number} has 0 segments: it is at its end A and has no length")
             xb, yb, zb = xa, ya, za
         choice: RodKind = kind or "fixed"
         found.append(

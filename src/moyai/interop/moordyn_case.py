@@ -189,7 +189,7 @@ def _moved(deck: MoorDynDeck, bodies: tuple[BodyOfDeck, ...], motions: Mapping[i
             raise InputError(
                 f"{name} is not coupled and follows no motion", path="--motion",
                 allowed=", ".join(coupled) or "nothing of this deck is coupled to what moves it",
-                remedy="pins of coupled bodies and rods stand still here" if any(
+                remedy="pins of coupled bodies and rods are fixed here" if any(
                     body.name == name and body.kind == "pinned" for body in bodies
                 ) else "",
             )  # fmt: skip
@@ -388,7 +388,7 @@ def _current(deck: MoorDynDeck, dynamic: bool) -> list[str]:
         if current.file and dynamic:
             return [f"current_field: {{file: {_word(current.file)}, form: steady}}"]
         raise InputError(
-            "the current of the deck turns over the height; at rest a case file has one direction",
+            "the direction of the deck's current varies with depth; in statics a case file has one direction",
             path="Currents",
             remedy="run it through time (--duration)"
             if current.file

@@ -101,7 +101,7 @@ def _grid(name: str, lines: list[str]) -> CurrentField:
             raise InputError(f"{name}:{number}: {len(row)} numbers", path="Currents", allowed="x, y, z, time, velocity")
         index = [int(np.argmin(np.abs(axis - value))) for axis, value in zip(axes, row)]
         if any(abs(axis[i] - value) > 1e-6 * max(1.0, abs(value)) for axis, i, value in zip(axes, index, row)):
-            raise InputError(f"{name}:{number}: the row stands on no point of the grid", path="Currents")
+            raise InputError(f"{name}:{number}: the row is at no point of the grid", path="Currents")
         velocity[index[3], index[0], index[1], index[2]] = row[4:]
     missing = int(np.isnan(velocity[..., 0]).sum())
     if missing:

@@ -125,11 +125,11 @@ class DeckLine:
 class MoorDynDeck:
     """A MoorDyn input file."""
 
-    #: Rows of the sections.
+    #: Rows of the section of line types.
     line_types: tuple[DeckLineType, ...]
-    #: Rows of the sections.
+    #: Rows of the section of points.
     points: tuple[DeckPoint, ...]
-    #: Rows of the sections.
+    #: Rows of the section of lines.
     lines: tuple[DeckLine, ...]
     #: Rows of OPTIONS, in order.
     options: tuple[DeckOption, ...] = ()

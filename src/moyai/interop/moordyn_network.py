@@ -242,7 +242,7 @@ def to_deck(network: Network, *, title: str = "", floating: bool = False) -> Moo
     ------
     CaseError
         All that MoorDyn cannot express: floats that are partly immersed, held components, contact of points with the
-        bed, wakes, bars that bear compression, a bed above or below the depth, diameters of contact in different
+        bed, wakes, bars that carry compression, a bed above or below the depth, diameters of contact in different
         ratios to the volume.
     """
     equivalent = [math.sqrt(4.0 * kind.volume_per_length / math.pi) for kind in network.bars.types]
@@ -279,8 +279,8 @@ def to_deck(network: Network, *, title: str = "", floating: bool = False) -> Moo
 def safe_step(network: Network) -> float:
     """Return a step [s] with which MoorDyn's scheme RK4 stays stable on a network, two digits of it.
 
-    The fourth-order scheme of Runge and Kutta bears 2.8 over the fastest angular frequency of a motion without damping,
-    and as much over the rate of one that only fades; the explicit scheme here bears 2.
+    The fourth-order scheme of Runge and Kutta is stable to 2.8 over the highest frequency of a motion without damping,
+    and as much over the rate of one that only fades; the explicit scheme here to 2.
     """
     from moyai.flexible.explicit import LOAD_STEPS, ExplicitRun
 
@@ -316,7 +316,7 @@ def _inexpressible(network: Network, equivalent: list[float], floating: bool) ->
     ratios = []
     for kind, diameter in zip(bars.types, equivalent, strict=True):
         if not kind.tension_only:
-            refuse("a bar that bears compression", kind.name)
+            refuse("a bar that carries compression", kind.name)
         if diameter <= 0.0:
             refuse("a line without volume", kind.name)
         else:
@@ -406,7 +406,8 @@ def deck_line_types(kinds: Sequence[BarType]) -> tuple[DeckLineType, ...]:
             )
         if isinstance(kind.slow, WornRope):
             raise InputError(
-                f"the line type {kind.name!r} remembers its highest tension, which is not written into decks",
+                f"the line type {kind.name!r} depends on its highest mean tension (Syrope), which is not written into "
+                "decks",
                 path="line types", allowed="EA, a curve, or slow stretch",
             )  # fmt: skip
         made = DeckLineType(

@@ -87,7 +87,7 @@ def read_moordyn_output(path: str | Path) -> MoorDynOutput:
     names = lines[first].replace(",", " ").split()
     repeated = sorted({name for name in names if names.count(name) > 1})
     if repeated:
-        raise InputError(f"{place.name}:{first + 1}: channel {repeated[0]!r} stands twice", path="output")
+        raise InputError(f"{place.name}:{first + 1}: channel {repeated[0]!r} is given twice", path="output")
     units: list[str] = [""] * len(names)
     rows: list[list[float]] = []
     for index in range(first + 1, len(lines)):

@@ -1,6 +1,6 @@
 """Read MoorDyn input files; all faults of a file come at once, each with its line.
 
-MoorDyn itself passes over what it does not know and takes columns by their place. Here columns go by their headings;
+MoorDyn itself ignores unknown words and takes columns by their place. Here columns go by their headings;
 where a heading is not known by its place, and where the place would have given other values, a note says so. Options
 that are not known are noted and skipped, unless they look like one that a run needs.
 """
@@ -372,7 +372,7 @@ def _failures(rows: list[DeckRow], lines: tuple[DeckLine, ...], faults: Faults) 
             continue
         line = next((item for item in lines if item.number == numbers[0]), None)
         if "lines" not in faults.broken and (line is None or point not in (line.start, line.end)):
-            faults.add(row.line, f"line {numbers[0]:g} does not hang on {word}", path="failure")
+            faults.add(row.line, f"line {numbers[0]:g} is not attached to {word}", path="failure")
         time, tension = faults.number(row, "time", least=0.0), faults.number(row, "tension", least=0.0)
         if not time and not tension:
             continue  # it never parts
@@ -393,7 +393,7 @@ def _options(body: list[tuple[int, str]], folder: Path, faults: Faults, notes: l
             faults.add(number, f"option {words[0]!r} has no key", "a value, then its key", path="options")
             continue
         if words[1].lower() not in known and words[0].lower() in known:
-            notes.append(f"line {number}: {words[0]} stands before its value; MoorDyn would pass over it")
+            notes.append(f"line {number}: {words[0]} is before its value; MoorDyn would ignore it")
             words[:2] = words[1::-1]
         key = known.get(words[1].lower())
         if key is None:
@@ -480,7 +480,7 @@ def _check_site(deck: MoorDynDeck, faults: Faults) -> None:
                 f"{level:g} or more", path="points",
             )  # fmt: skip
         if point.number not in held and point.kind == "free" and "lines" not in faults.broken:
-            faults.add(point.line, f"free point {point.number} hangs on no line", path="points")
+            faults.add(point.line, f"free point {point.number} has no line", path="points")
 
 
 @reads("a deck of MoorDyn", named="deck")
@@ -518,8 +518,8 @@ def read_deck(path: str | Path) -> MoorDynDeck:
     kinds = _line_types(names, kind_rows, place.parent, faults)
     if names and tuple(names[: len(keys.LINE_TYPE_ORDER)]) != keys.LINE_TYPE_ORDER:
         notes.append(
-            f"line {kind_rows[0].line - 2 if kind_rows else 0}: the columns of LINE TYPES stand in another order than "
-            "MoorDyn v2 takes them; they are read by their headings"
+            f"line {kind_rows[0].line - 2 if kind_rows else 0}: the columns of LINE TYPES are in another order than "
+            "that of MoorDyn v2; they are read by their headings"
         )
     rod_types = read_rod_types(_table("rod types", sections, ROD_TYPE_COLUMNS, faults, notes)[1], faults)
     bodies = read_bodies(_table("bodies", sections, BODY_COLUMNS, faults, notes)[1], faults)

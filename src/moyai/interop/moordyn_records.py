@@ -157,9 +157,9 @@ class DeckWaves:
 
     #: [rad/s].
     omega: tuple[float, ...]
-    #: [m].
+    #: Real parts [m].
     real: tuple[float, ...]
-    #: [m].
+    #: Imaginary parts [m].
     imaginary: tuple[float, ...]
     #: Of travel, from +x towards +y [rad].
     direction: tuple[float, ...]

@@ -1,6 +1,6 @@
-"""Polyester ropes of decks whose static curve depends on the highest mean tension that they have borne (Syrope).
+"""Polyester ropes of decks whose static curve depends on the highest mean tension that they have carried (Syrope).
 
-A new rope follows its original curve. One that has borne a mean tension ``highest`` has stretched for good: up to that
+A new rope follows its original curve. One that has carried a mean tension ``highest`` has stretched: up to that
 tension it follows a working curve that begins at the strain left without tension, beyond it the original one. Quick
 changes are stiffer (alpha + beta T); the law itself is in :mod:`moyai.flexible.worn_law`.
 """
@@ -29,7 +29,7 @@ FORMS: tuple[DeckForm, ...] = ("LINEAR", "QUADRATIC", "EXP")
 
 @checks_words
 def working_curve(original: StiffnessTable, form: DeckForm, k1: float, k2: float, highest: float) -> StiffnessTable:
-    """Return the curve at rest of a rope that has borne a mean tension.
+    """Return the curve at rest of a rope that has carried a mean tension.
 
     Parameters
     ----------
@@ -132,7 +132,7 @@ def _table(settings: Path, name: str) -> StiffnessTable:
 def with_history(
     kinds: tuple[DeckLineType, ...], lines: tuple[DeckLine, ...], rows: Sequence[DeckRow], faults: Faults
 ) -> tuple[tuple[DeckLineType, ...], tuple[DeckLine, ...]]:
-    """Return line types and lines with the curves of what each line has borne, by the rows of SYROPE IC.
+    """Return line types and lines with the curves of what each line has carried, by the rows of SYROPE IC.
 
     A line whose history differs from that of a new rope gets a line type of its own.
     """

@@ -28,7 +28,7 @@ MOST_FREQUENCIES = 20_000
 def read_waves(
     option: DeckOption, time_step: float | None, folder: Path, faults: Faults, notes: list[str]
 ) -> DeckWaves | None:
-    """Return the waves that the option WaveKin of a deck asks for.
+    """Return the waves that the option WaveKin of a deck requires.
 
     Parameters
     ----------
@@ -100,7 +100,7 @@ def _of_record(
         faults.found.append(Fault(fault.message, "WaveKin", fault.allowed, fault.remedy, name, 0, 0))
         return None
     if abs(found.mean) > 1e-3 * float(np.max(found.amplitude)):
-        notes.append(f"{name}: the mean elevation of {found.mean:.3g} m carries no wave and is left out")
+        notes.append(f"{name}: the mean elevation of {found.mean:.3g} m is no wave and is left out")
     real, imaginary = found.amplitude * np.sin(found.phase), found.amplitude * np.cos(found.phase)
     omega, sines, cosines = (tuple(map(float, column)) for column in (found.omega, real, imaginary))
     return DeckWaves(omega, sines, cosines, (0.0,) * len(omega), name, time_step, found.period)
@@ -132,7 +132,7 @@ def _of_frequencies(
         table[:, 1], table[:, 2] = -table[:, 2].copy(), table[:, 1].copy()
     size = np.hypot(table[:, 1], table[:, 2])
     if np.any((table[:, 0] == 0.0) & (size > 0.0)):
-        notes.append(f"{name}: the elevation at 0 rad/s carries no wave and is left out")
+        notes.append(f"{name}: the elevation at 0 rad/s is no wave and is left out")
     table = table[(table[:, 0] > 0.0) & (size > 0.0)]
     if not len(table):
         refuse("no frequency has an amplitude", "one or more")

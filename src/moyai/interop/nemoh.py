@@ -34,7 +34,7 @@ _FREQUENCY = {1: "angular frequency", 2: "frequency", 3: "period"}
 
 @dataclass(frozen=True)
 class _Control:
-    """What Nemoh.cal tells."""
+    """What Nemoh.cal gives."""
 
     density: float
     gravity: float

@@ -1,4 +1,4 @@
-"""One door for all programs."""
+"""The only entry point for files of all programs."""
 
 from __future__ import annotations
 

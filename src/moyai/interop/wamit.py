@@ -237,7 +237,7 @@ class _FirstColumn:
                 f"{self.source}: {values[undecided][0]:g} in the first column ({self.kind}) may mean zero "
                 "or infinite frequency",
                 path="zero_frequency_code, infinite_frequency_code",
-                remedy="say which by zero_frequency_code and infinite_frequency_code",
+                remedy="state which by zero_frequency_code and infinite_frequency_code",
             )
         ordinary = np.isnan(omega)
         if self.kind == "period":

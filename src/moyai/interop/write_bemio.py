@@ -32,7 +32,7 @@ def bemio_files(dataset: xr.Dataset) -> dict[str, bytes]:
     Raises
     ------
     InputError
-        When the added mass at infinite frequency is not known, which the format asks for, and the frequencies are too
+        When the added mass at infinite frequency is not known, which the format requires, and the frequencies are too
         few to find it from the damping.
     """
     import h5py
@@ -41,7 +41,7 @@ def bemio_files(dataset: xr.Dataset) -> dict[str, bytes]:
         dataset = complete_limits(dataset)
     if "infinite_frequency_added_mass" not in dataset:
         raise InputError(
-            "BEMIO asks for the added mass at infinite frequency, which the coefficients lack",
+            "BEMIO requires the added mass at infinite frequency, which the coefficients lack",
             path="coefficients",
             remedy="more frequencies, from which moyai finds it",
         )

@@ -46,7 +46,7 @@ _CONVENTIONS = {
 }
 _LEFT_OUT = (
     UNREAD,
-    "surge, pitch and yaw have no coefficients: a section knows waves square to the crest alone",
+    "surge, pitch and yaw have no coefficients: a section is for waves at right angles to its axis only",
     "inertia in pitch and yaw is that of a uniform bar of the unit's length",
     "viscous damping, drift, wind and current are left out",
 )
@@ -217,9 +217,9 @@ class MooringOfUnit:
     """A line between the unit and the bed, in the axes of the site."""
 
     name: str
-    #: z from still water [m].
+    #: Fairlead, z from still water [m].
     fairlead: tuple[float, float, float]
-    #: z from still water [m].
+    #: Anchor, z from still water [m].
     anchor: tuple[float, float, float]
     #: Line type, length and longest segment [m], from the fairlead.
     sections: tuple[tuple[str, float, float], ...]

@@ -67,7 +67,7 @@ class AnchorCheck:
 
 
 def check_sinker(sinker: Sinker, horizontal: float, uplift: float) -> AnchorCheck:
-    """Hold a sinker against the pull of its line [eq:checks-sinker].
+    """Compare a sinker with the pull of its line [eq:checks-sinker].
 
     Parameters
     ----------
@@ -96,7 +96,7 @@ def check_sinker(sinker: Sinker, horizontal: float, uplift: float) -> AnchorChec
 
 
 def check_drag_anchor(anchor: DragAnchor, horizontal: float, uplift: float) -> AnchorCheck:
-    """Hold a drag anchor against the pull of its line [eq:checks-drag-anchor].
+    """Compare a drag anchor with the pull of its line [eq:checks-drag-anchor].
 
     Notices report any uplift: such anchors are not made for it.
 
@@ -123,15 +123,16 @@ def check_drag_anchor(anchor: DragAnchor, horizontal: float, uplift: float) -> A
     sliding = anchor.safety_factor * abs(horizontal) / (anchor.weight * anchor.holding_power)
     notices: tuple[Notice, ...] = ()
     if uplift > 0.0:
-        angle = math.degrees(math.atan2(uplift, max(abs(horizontal), 1e-300)))
+        angle = math.atan2(uplift, max(abs(horizontal), 1e-300))
         notices = (
             Notice(
                 "anchor-uplift",
-                f"the line pulls a drag anchor upwards at {angle:.1f} degrees (limit 0)",
+                f"the line pulls a drag anchor upwards at {math.degrees(angle):.1f} degrees (limit 0)",
                 angle,
                 0.0,
                 "error",
                 remedy="lengthen the line, add weight near the anchor, or use a sinker or pile",
+                unit="rad",
             ),
         )
     return AnchorCheck(sliding, math.inf if uplift > 0.0 else 0.0, notices)

@@ -100,7 +100,7 @@ def solve_catenary(
         Whether a horizontal bed carries the line.
     bed_friction : array_like
         Coulomb coefficient mu [-]; tension falls by mu w per grounded metre from the touchdown towards the anchor, not
-        below 0. It is left out where the anchor stands above the bed.
+        below 0. It is left out where the anchor is above the bed.
     bed_clearance : array_like
         Height of the anchor over the bed [m], 0 for an anchor on the bed.
 

@@ -62,7 +62,7 @@ def check_line_system(
             notices.append(
                 Notice(
                     "mooring-fairlead-dry",
-                    f"{label}: the fairlead stands {point[2] - still_water:.3g} m above the still water; the weight in "
+                    f"{label}: the fairlead is {point[2] - still_water:.3g} m above the still water; the weight in "
                     "water is taken for the whole line",
                     float(point[2] - still_water),
                     0.0,
@@ -141,8 +141,8 @@ def _geometry(
         notices.append(
             Notice(
                 "mooring-line-heap",
-                f"{label}: {line.length:.5g} m of line lie in a heap {where}: horizontal and vertical distance "
-                f"together are {reach + rise:.5g} m, so the line holds nothing",
+                f"{label}: {line.length:.5g} m of line lie folded {where}: horizontal and vertical distance "
+                f"together are {reach + rise:.5g} m, so the line has no tension",
                 line.length,
                 reach + rise,
                 "error",
@@ -153,7 +153,7 @@ def _geometry(
         notices.append(
             Notice(
                 "mooring-anchor-above-bed",
-                f"{label}: the anchor stands {clearance:.4g} m above the bed",
+                f"{label}: the anchor is {clearance:.4g} m above the bed",
                 clearance,
                 0.0,
                 "warning",
@@ -170,7 +170,7 @@ def _geometry(
                 uplift,
                 0.0,
                 "information",
-                "check that the anchor type bears uplift, or lengthen the line",
+                "check that the anchor type resists uplift, or lengthen the line",
             )
         )
     buoyant = any(row[2] < 0.0 or row[3] < 0.0 for row in line.table)
@@ -180,8 +180,8 @@ def _geometry(
             notices.append(
                 Notice(
                     "mooring-buoy-above-water",
-                    f"{label}: a buoyant part would stand {highest:.4g} m above the still water {where}; its full "
-                    "buoyancy is overrated",
+                    f"{label}: a buoyant part would be {highest:.4g} m above the still water {where}; its full "
+                    "buoyancy is too large",
                     highest,
                     0.0,
                     "warning",

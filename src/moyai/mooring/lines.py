@@ -80,15 +80,15 @@ class LineState:
     force: Array
     #: Minus the derivative of ``force`` with respect to the fairlead position [N/m]; shape (n, 3, 3).
     stiffness: Array
-    #: Tensions of one copy [N]; shape (n,).
+    #: Tension of one copy at the fairlead [N]; shape (n,).
     tension_fairlead: Array
-    #: Tensions of one copy [N]; shape (n,).
+    #: Tension of one copy at the anchor [N]; shape (n,).
     tension_anchor: Array
-    #: Components for one copy [N]; shape (n,).
+    #: Horizontal component of one copy [N]; shape (n,).
     horizontal_tension: Array
-    #: Components for one copy [N]; shape (n,).
+    #: Vertical component of one copy at the fairlead [N]; shape (n,).
     vertical_tension_fairlead: Array
-    #: Components for one copy [N]; shape (n,).
+    #: Vertical component of one copy at the anchor [N]; shape (n,).
     vertical_tension_anchor: Array
     #: Unstretched length on the bed of one copy [m]; shape (n,).
     grounded_length: Array
@@ -101,7 +101,7 @@ class LineState:
 
 
 class LineElement(Protocol):
-    """What a line system asks of its members."""
+    """What a line system requires of its members."""
 
     @property
     def name(self) -> str:
@@ -288,11 +288,11 @@ class Line:
 class SpringLine:
     """A straight weightless linear spring between a fixed point and the body, for flume tests and soft guides."""
 
-    #: As for :class:`Line`.
+    #: Name, as for :class:`Line`.
     name: str
-    #: As for :class:`Line`.
+    #: Anchor, as for :class:`Line`.
     anchor: Vector
-    #: As for :class:`Line`.
+    #: Fairlead, as for :class:`Line`.
     fairlead: Vector
     #: [N/m].
     stiffness: float
@@ -318,7 +318,7 @@ class SpringLine:
 
     @property
     def natural_length(self) -> float:
-        """Length at which the spring bears nothing [m]; may be negative when strongly pretensioned."""
+        """Length at which the spring carries nothing [m]; may be negative when strongly pretensioned."""
         return math.dist(self.anchor, self.fairlead) - self.pretension / self.stiffness
 
     def solve(self, points: Array, water_depth: float) -> LineState:

@@ -43,11 +43,11 @@ class TabulatedForce:
     tolerance: float
     #: Largest relative error found at 4000 random points of the window.
     measured_error: float
-    #: Arrays for :func:`moyai.mooring.planar_kernel.table_force`.
+    #: Forces and derivatives at the nodes, for :func:`moyai.mooring.planar_kernel.table_force`.
     nodes: Array = field(repr=False)
-    #: Arrays for :func:`moyai.mooring.planar_kernel.table_force`.
+    #: First cell of every uniform bin, for the same function.
     lookup: IntArray = field(repr=False)
-    #: Arrays for :func:`moyai.mooring.planar_kernel.table_force`.
+    #: Integers of the line, for the same function.
     index: IntArray = field(repr=False)
 
     @property
@@ -182,7 +182,7 @@ def tabulate_line(
     horizontal_range, vertical_range : tuple
         Window of the distances from anchor to fairlead [m].
     tolerance : float
-        |error of (H, V)| over the tension that is aimed at; ``measured_error`` tells what was reached.
+        |error of (H, V)| over the tension that is aimed at; ``measured_error`` gives what was reached.
 
     Raises
     ------
@@ -364,7 +364,7 @@ def _window(
     if line.bed_clearance(depth) >= 0.0:
         bottom = max(bottom, -depth - line.anchor[2] + 1e-9 * line.length)
     if not (high > low and top > bottom):
-        raise InputError("the motion range gives this line no room", parameter=f"lines.{line.name}")
+        raise InputError("the line is taut within the motion range", parameter=f"lines.{line.name}")
     wide_bottom, wide_top = _outward(bottom, top)
     floor = -math.inf if line.bed_clearance(depth) < 0.0 else -depth - line.anchor[2] + 1e-9 * line.length
     return _outward(low, high), (max(wide_bottom, floor), wide_top)

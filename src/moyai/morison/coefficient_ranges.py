@@ -18,9 +18,9 @@ class MeasuredRange:
 
     #: Of the law, in words.
     name: str
-    #: Range that its source covers [-].
+    #: Range of the Keulegan-Carpenter number of its source [-].
     keulegan_carpenter: tuple[float, float]
-    #: Range that its source covers [-].
+    #: Range of the Reynolds number of its source [-].
     reynolds: tuple[float, float]
     #: ``below``, ``above``: Allowance under and over the coefficient, as a part of it [-].
     below: float
@@ -57,7 +57,7 @@ INERTIA_RANGES: dict[str, MeasuredRange] = {
 }  # fmt: skip
 #: Circulation of orbital flow: gamma of 0.936 to 1.036 in three series of measurements, KC up to 2
 CIRCULATION = MeasuredRange("circulation of orbital flow", (0.0, 2.0), _ALL, 0.10, 0.10, "Arai; Otsuka; Chaplin")
-#: Numbers of the case itself, whose measurement the program does not know
+#: Numbers of the case itself, whose measurement the program does not have
 GIVEN = 0.25, 0.10
 
 

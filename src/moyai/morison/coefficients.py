@@ -136,7 +136,7 @@ class CoefficientRule:
         Raises
         ------
         InputError
-            When a law does not speak of this section.
+            When a law is not for this section.
         """
         notices: list[Notice] = []
         inertia = self._inertia(section, flow, notices)
@@ -267,7 +267,7 @@ def _steady(section: MemberSection, flow: Conditions, notices: list[Notice]) -> 
 def _require_circle(section: MemberSection, law: str, name: str) -> None:
     if not section.is_circle:
         raise InputError(
-            f"the law '{law}' speaks of circles, the section is a {section.name}",
+            f"the law '{law}' is for circles, the section is a {section.name}",
             parameter=name,
             allowed="circle",
             remedy="use 'ideal' or give numbers" if name == "inertia" else "use 'steady' or give numbers",

@@ -33,7 +33,7 @@ class Contour:
     ------
     InputError
         For values that are not finite, fewer than three corners (two with arcs), corners that coincide, no area, or a
-        contour that meets itself.
+        contour that intersects itself.
     """
 
     #: Corners (x, z) [m]; the last need not repeat the first; shape (n, 2).
@@ -92,7 +92,7 @@ class Contour:
             meet = _segments_meet(a[i], b[i], a[others], b[others], _TOUCH * size)
             if meet.any():
                 raise InputError(
-                    f"the section meets itself near x = {a[i].real:g} m, z = {a[i].imag:g} m",
+                    f"the section intersects itself near x = {a[i].real:g} m, z = {a[i].imag:g} m",
                     parameter="points",
                     remedy="list the corners once around the section",
                 )
@@ -201,7 +201,7 @@ def _segments_meet(a: complex, b: complex, c: ComplexArray, d: ComplexArray, tol
 
 
 def _boxes_meet(a: complex, b: complex, c: ComplexArray, d: ComplexArray, tolerance: float) -> NDArray[np.bool_]:
-    """Whether the boxes around the segments overlap: tells parallel segments on one line apart."""
+    """Whether the boxes around the segments overlap: separates parallel segments on one line."""
     out = np.ones(c.shape, dtype=bool)
     for part in (np.real, np.imag):
         low, high = min(part(a), part(b)) - tolerance, max(part(a), part(b)) + tolerance

@@ -51,7 +51,7 @@ class LinearFlow:
     def __post_init__(self) -> None:
         stretching_code(self.stretching)
         if self.components.water is None:
-            raise InputError("the components know no water", parameter="components", remedy="give water=Water(...)")
+            raise InputError("the components have no water", parameter="components", remedy="give water=Water(...)")
 
     def sample(self, time: Array, points: Array) -> FlowSample:
         """Return the motion at times [s] at points (n, 3) [m]."""

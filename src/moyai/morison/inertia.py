@@ -96,7 +96,7 @@ def inertia_coefficients(contour: Contour, *, accuracy: float = 1e-7) -> Inertia
 
 @lru_cache(maxsize=256)
 def _remembered(vertices: bytes, bulges: bytes, accuracy: float) -> InertiaCoefficients:
-    """Solve a contour given by its numbers once: a case asks for its section at every step from check to report."""
+    """Solve a contour given by its numbers once: a case needs its section at every step from check to report."""
     contour = Contour(np.frombuffer(vertices).reshape(-1, 2), np.frombuffer(bulges))
     levels, order = _resolution(contour, accuracy)
     coarse = _solve(contour, np.maximum(levels - 3, min(1, int(levels.min()))), max(order - 2, 4))

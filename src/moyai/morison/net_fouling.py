@@ -119,7 +119,7 @@ def foul_by_name(net: Net, name: str) -> FouledNet:
     Raises
     ------
     InputError
-        For an unknown entry, or one that speaks of drag alone.
+        For an unknown entry, or one that is for drag alone.
     """
     entry = net_fouling(name)
     if math.isnan(entry.diameter_factor):

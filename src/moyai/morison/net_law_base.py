@@ -53,11 +53,11 @@ class NetLaw(ABC):
         """Return drag and lift for angles of 0 to pi/2 and speeds of the same shape."""
 
     def reynolds(self, speed: ArrayLike, net: Net, kinematic_viscosity: float) -> Array:
-        """Return the Reynolds number that the law speaks of."""
+        """Return the Reynolds number that the law is for."""
         return np.asarray(speed, dtype=float) * net.twine_diameter / kinematic_viscosity
 
     def range_solidity(self, net: Net) -> float:
-        """Return the solidity that the law speaks of."""
+        """Return the solidity that the law is for."""
         return net.solidity
 
     def coefficients(
@@ -173,7 +173,7 @@ def panel_force(
     Raises
     ------
     InputError
-        When the normal has no length, or the law does not speak of such a net.
+        When the normal has no length, or the law is not for such a net.
 
     Examples
     --------

@@ -1,4 +1,4 @@
-"""Which laws were measured on nets like the one at hand, and how far apart they are there.
+"""Which laws were measured on nets like the one given, and how far apart they are there.
 
 How the answer is made: docs/answer/cage.md, section on the laws of nets.
 """
@@ -54,7 +54,7 @@ def law_choice(chosen: NetLaw, net: Net, speed: float, kinematic_viscosity: floa
     """Return the laws valid for a net at a speed.
 
     A law is valid where solidity and Reynolds number lie in the range of its source, and where it was fitted to panels
-    of such nets: laws of single twines leave out the faster flow between them, a law of one net speaks of that net,
+    of such nets: laws of single twines leave out the faster flow between them, a law of one net is for that net,
     laws of wire nets of metal.
 
     Parameters

@@ -40,7 +40,7 @@ def check_frequencies(omega: ArrayLike) -> Array:
             f"omega contains {bad:g} rad/s",
             parameter="omega",
             allowed="finite and greater than 0",
-            remedy="the limits at zero and infinity are in the dataset under names of their own",
+            remedy="the limits at zero and infinity are in the dataset under separate names",
         )
     return values
 
@@ -62,7 +62,7 @@ def check_headings(heading: ArrayLike) -> Array:
             f"heading contains {math.degrees(worst):g} degrees",
             parameter="heading",
             allowed="-89.5 to 89.5 degrees from +x",
-            remedy="waves from the other side meet the mirrored section: turn x round",
+            remedy="for waves from the other side mirror the section: reverse x",
         )
     return values
 
@@ -266,7 +266,7 @@ def _pair_scale(coefficient: Array) -> Array:
 
 
 def _force_scale(solution: HeadingSolution) -> Array:
-    """Scale of the force on each mode from what its own motion costs, to tell a zero excitation from a small one."""
+    """Scale of the force on each mode from what its own motion costs, to find which excitation is zero."""
     states = solution.states
     inertia = states.omega[:, None] ** 2 * np.abs(np.einsum("wii->wi", solution.added_mass))
     return np.asarray(inertia.max(axis=0) + np.abs(solution.froude_krylov_force).max(axis=0))

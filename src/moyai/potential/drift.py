@@ -28,9 +28,9 @@ class FarFieldDrift:
     horizontal: Array
     #: Along y; only energy that is taken from the waves pushes that way; shape (omega,).
     along_crest: Array
-    #: Of the moving section; shape (omega,).
+    #: Reflection coefficient of the moving section; shape (omega,).
     reflection: ComplexArray
-    #: Of the moving section; shape (omega,).
+    #: Transmission coefficient of the moving section; shape (omega,).
     transmission: ComplexArray
     #: 1 - |R|^2 - |T|^2; shape (omega,).
     loss: Array

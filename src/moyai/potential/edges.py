@@ -55,9 +55,9 @@ def arc_slope(start: ComplexArray, end: ComplexArray, bulge: Array, t: Array | f
 class Edges:
     """A run of straight and circular edges, one after the other."""
 
-    #: End points (x, z) [m] of each edge; shape (n, 2).
+    #: Start (x, z) of each edge [m]; shape (n, 2).
     start: Array
-    #: End points (x, z) [m] of each edge; shape (n, 2).
+    #: End (x, z) of each edge [m]; shape (n, 2).
     end: Array
     #: tan(sweep / 4) of each edge: 0 is straight, positive turns counter-clockwise, 1 is a half circle; shape (n,).
     bulge: Array

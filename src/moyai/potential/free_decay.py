@@ -1,7 +1,7 @@
 """Free decay of a linear floating body in three independent ways: frequency integral, states, convolution.
 
 Released from rest at an offset in still water. The frequency integral uses A(omega) and B(omega) alone and no memory
-function, so that it tells whether a memory is right at long times, [eq:memory-decay].
+function, so that it shows whether a memory is right at long times, [eq:memory-decay].
 """
 
 from __future__ import annotations

@@ -71,9 +71,9 @@ class HeadingSolution:
     #: The same by integration of the pressure, exact to a share of the added mass only; for the check; shape (omega,
     #: radiating, influenced).
     pressure_damping: Array
-    #: [N/m per m]; shape (omega, mode).
+    #: Force of the undisturbed wave [N/m per m]; shape (omega, mode).
     froude_krylov_force: ComplexArray
-    #: [N/m per m]; shape (omega, mode).
+    #: Force of the scattered wave [N/m per m]; shape (omega, mode).
     diffraction_force: ComplexArray
     #: Wave amplitude on the minus and the plus side per unit velocity [m per m/s]; shape (omega, mode, 2).
     radiated_wave: ComplexArray

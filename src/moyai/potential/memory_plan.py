@@ -127,9 +127,9 @@ def refine_frequencies(
 class MemoryPlan:
     """Length and step of a convolution, and why."""
 
-    #: [s].
+    #: Length of the memory [s].
     length: float
-    #: [s].
+    #: Step of the memory [s].
     time_step: float
     #: Whether the memory has decayed at ``length``; if not the state-space form should be used.
     reached: bool

@@ -103,7 +103,7 @@ def all_runs(section: Section, depth: float, axis: float | None) -> list[EdgeRun
             continue
         corner = _corners(plate.edges, False) | _at_points(plate.edges, joints)
         ends = plate.edges.start[0, 1], plate.edges.end[-1, 1]
-        # An edge on the bed is not free: the jump of the potential goes on in the mirror image
+        # An edge on the bed is not free: the jump of the potential continues in the mirror image
         tips = [not joined and z + depth > 1e-6 * -z for joined, z in zip(plate.joined, ends)]
         runs.append(EdgeRun(plate.edges, corner, plate.body, PLATE, (tips[0], tips[1])))
     return runs
@@ -212,7 +212,7 @@ class Surroundings:
         if run >= 0 and self._runs[run].kind == PLATE:
             edges = self._runs[run].edges
             if min(edges.start[edge, 1], edges.end[edge, 1]) + self.depth < 1e-6 * self.size:
-                bed = best  # a plate that stands on the bed goes on in its mirror image
+                bed = best  # a plate that stands on the bed continues in its mirror image
         if others.any():
             offset = points[:, None] - self._first[None, others]
             chord = self._chord[None, others]

@@ -26,9 +26,9 @@ RAY_DIRECTION = cmath.exp(0.25j * math.pi)
 class Rule:
     """Gauss-Legendre rule of one panel with the matrices that go with it."""
 
-    #: On [-1, 1]; shape (p,).
+    #: Nodes of the rule on [-1, 1]; shape (p,).
     nodes: Array
-    #: On [-1, 1]; shape (p,).
+    #: Weights of the rule; shape (p,).
     weights: Array
     #: Legendre coefficients (rows) from node values; shape (p, p).
     projection: Array
@@ -76,17 +76,17 @@ class Panels:
     u: ComplexArray
     #: See ``u``.
     v: ComplexArray
-    #: Their derivatives with respect to the parameter t of the panel.
+    #: Derivative of u with respect to the parameter t of the panel.
     du: ComplexArray
-    #: Their derivatives with respect to the parameter t of the panel.
+    #: Derivative of v with respect to t.
     dv: ComplexArray
     #: dsigma/dt: the speed on bodies, dx/dt on the free surface.
     element: ComplexArray
     #: ``element`` times the Gauss weight: sums over it are integrals along the boundary.
     weight: ComplexArray
-    #: Of each node.
+    #: Kind of each node.
     kind: IntArray
-    #: Of each node.
+    #: Body of each node.
     body: IntArray
 
     @property

@@ -33,7 +33,7 @@ class PlateLine:
     Raises
     ------
     InputError
-        For fewer than two points, points that are not finite or coincide, or a line that meets itself.
+        For fewer than two points, points that are not finite or coincide, or a line that intersects itself.
     """
 
     #: x, z [m] of both ends and of every corner between, in the frame of the hull or of the site; shape (n, 2).
@@ -67,7 +67,7 @@ class PlateLine:
         line = _chords(self.edges)
         first, second = np.triu_indices(len(line) - 1, 2)
         if segments_meet(line[first], line[first + 1], line[second], line[second + 1], 1e-9 * size).any():
-            raise InputError("the plate meets itself", parameter="plates", remedy="make several plates of it")
+            raise InputError("the plate intersects itself", parameter="plates", remedy="make several plates of it")
 
     @classmethod
     def of(cls, plate: Plate) -> PlateLine:

@@ -31,7 +31,7 @@ _MODES = ("sway", "heave", "roll")
 _SIDES = ("minus", "plus")
 #: Sway and roll change sign when the picture is mirrored
 _MIRROR = np.array([-1.0, 1.0, -1.0])
-#: Waves closer than this to travelling along the structure have no reflection and transmission to speak of
+#: Waves closer than this to travelling along the structure have no appreciable reflection and transmission
 _LEAST_COSINE = 1e-3
 #: Sine of the heading below which waves count as travelling along x; the answer changes with its square
 _LEAST_SINE = 1e-6
@@ -54,23 +54,23 @@ class RectangleSolution:
     omega: Array
     #: Directions of travel [rad]; shape (h,).
     heading: Array
-    #: Motions equal along the structure [kg/m, kg, kg m; /s]; shape (n, 3, 3).
+    #: Added mass of motions equal along the structure [kg/m, kg, kg m]; shape (n, 3, 3).
     added_mass: Array
-    #: Motions equal along the structure [kg/m, kg, kg m; /s]; shape (n, 3, 3).
+    #: Radiation damping of the same motions [kg/(m s), kg/s, kg m/s]; shape (n, 3, 3).
     radiation_damping: Array
-    #: Limits of the added mass; shape (3, 3).
+    #: Added mass at infinite frequency; shape (3, 3).
     infinite_frequency_added_mass: Array
-    #: Limits of the added mass; shape (3, 3).
+    #: Added mass at zero frequency; shape (3, 3).
     zero_frequency_added_mass: Array
     #: Wave amplitude per unit velocity towards -x and +x [s, m s]; shape (n, 3, 2).
     radiated_wave: ComplexArray
-    #: Per unit wave amplitude [N/m2, N/m]; shape (n, h, 3).
+    #: Exciting force per unit wave amplitude [N/m2, N/m]; shape (n, h, 3).
     excitation_force: ComplexArray
-    #: Per unit wave amplitude [N/m2, N/m]; shape (n, h, 3).
+    #: Part of the undisturbed wave in it [N/m2, N/m]; shape (n, h, 3).
     froude_krylov_force: ComplexArray
-    #: Of the body held fixed; shape (n, h).
+    #: Reflection coefficient of the body held fixed; shape (n, h).
     reflection: ComplexArray
-    #: Of the body held fixed; shape (n, h).
+    #: Transmission coefficient of the body held fixed; shape (n, h).
     transmission: ComplexArray
     #: Energy, Haskind, symmetry, far-field damping.
     checks: tuple[IdentityCheck, ...]
@@ -342,7 +342,7 @@ def _oblique(shape: _Shape, surface: Array, k: Array, angle: float) -> list[Fiel
 
 
 def _identities(solution: RectangleSolution) -> tuple[IdentityCheck, ...]:
-    """Hold the solution against what every correct one obeys, [eq:reference-identities]."""
+    """Compare the solution with what every correct one obeys, [eq:reference-identities]."""
     water, omega = solution.water, solution.omega
     speed = np.atleast_1d(np.asarray(group_velocity(omega, water.depth, water.gravity), dtype=float))
     energy = np.max(np.abs(np.abs(solution.reflection) ** 2 + np.abs(solution.transmission) ** 2 - 1.0))

@@ -30,7 +30,7 @@ class Outline:
     Raises
     ------
     InputError
-        For NaN, fewer than three corners (two with arcs), repeated corners, no area, or an outline that meets itself.
+        For NaN, fewer than three corners (two with arcs), repeated corners, no area, or intersections.
     """
 
     #: Corners (x, z) [m] in the body frame; the last one need not repeat the first; shape (n, 2).
@@ -77,7 +77,7 @@ class Outline:
         clash = polygon_clash(edges.polyline(), _TOUCH * size)
         if clash is not None:
             raise InputError(
-                f"the outline meets itself near x = {clash[0]:g} m, z = {clash[1]:g} m",
+                f"the outline intersects itself near x = {clash[0]:g} m, z = {clash[1]:g} m",
                 parameter="vertices",
                 remedy="list the corners once around the section",
             )
@@ -244,11 +244,11 @@ class Section:
 
     #: Whole outlines in the frame of the site.
     outlines: tuple[Outline, ...]
-    #: How the hull was set into the water [m, rad, m].
+    #: Draught that the hull was set to [m].
     draught: float
-    #: How the hull was set into the water [m, rad, m].
+    #: Heel that the hull was set to [rad].
     heel: float = 0.0
-    #: How the hull was set into the water [m, rad, m].
+    #: Sideways shift of the hull [m].
     offset: float = 0.0
     #: For messages and plots.
     name: str = "section"
@@ -266,7 +266,7 @@ class Section:
             left, right = chain.edges.start[0, 0], chain.edges.end[-1, 0]
             if not chain.closed and right <= left:
                 raise InputError(
-                    f"{self.name} holds water of its own or touches still water from below near x = {left:g} m",
+                    f"{self.name} encloses water or touches still water from below near x = {left:g} m",
                     parameter="draught",
                     remedy="draw the tank as a solid, or change the draught",
                 )

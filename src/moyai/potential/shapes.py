@@ -254,7 +254,7 @@ def polygon(points: ArrayLike, *, bulges: Any = None, name: str = "polygon") -> 
     Parameters
     ----------
     points : array_like, shape (n, 2)
-        Corners (x, z) [m]; z counts from the keel (where it does not, ``draught`` is the depth of its z = 0).
+        Corners (x, z) [m]; z is measured from the keel (where it does not, ``draught`` is the depth of its z = 0).
     bulges : array_like, shape (n,), optional
         tan(sweep / 4) of the edge that leaves each corner.
     name : str

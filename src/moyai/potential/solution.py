@@ -28,15 +28,15 @@ if TYPE_CHECKING:
 class RadiationDiffraction:
     """Coefficients, potentials and identities of one section; everything per metre of structure."""
 
-    #: The problem that was solved (heading in radians).
+    #: Section that was solved.
     section: Section
-    #: The problem that was solved (heading in radians).
+    #: Water that was solved.
     water: Water
-    #: The problem that was solved (heading in radians).
+    #: Modes that were solved.
     modes: Modes
-    #: The problem that was solved (heading in radians).
+    #: Headings that were solved [rad].
     heading: Array
-    #: The problem that was solved (heading in radians).
+    #: Damping lid that was solved with.
     lid: float
     #: Waves along +x; its radiation coefficients hold for motion that is uniform along the structure.
     normal: HeadingSolution

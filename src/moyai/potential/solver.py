@@ -67,7 +67,7 @@ def solve(
     lid : float, optional
         Damping eps of the free surface enclosed between bodies, phi_z = K (1 + i eps) phi there; none by default.
     accuracy : float
-        Target error relative to the largest value of a coefficient over the band. The identities are held against it;
+        Target error relative to the largest value of a coefficient over the band. The identities are compared with it;
         where one misses it the panels are refined.
     progress : Progress
         Listener; a KeyboardInterrupt raised in it (or by the keyboard) hands back the frequencies that are done.
@@ -131,7 +131,7 @@ def _solve_once(
     resolution: Resolution,
     progress: Progress,
 ) -> RadiationDiffraction:
-    """Solve with panels of one resolution and hold the result against the identities."""
+    """Solve with panels of one resolution and compare the result with the identities."""
     band = float(wave_number.min()), float(wave_number.max())
     layout = lay_out(section, water.depth, band, resolution)
     problem = Problem.of(layout, water, lid, modes)

@@ -212,7 +212,7 @@ def solve_plate_limit(
     stands = _stands_on_bed(plate, water)
     if frequency == "zero" and stands:
         raise InputError(
-            "a plate that stands on the bed has no added mass at zero frequency",
+            "a plate that reaches the bed has no added mass at zero frequency",
             parameter="plate.end",
             allowed="clear of the bed",
             remedy="lift the end, or take a frequency",

@@ -79,8 +79,8 @@ def _stretched(y: Array, corner: float) -> Array:
 def with_tails(matrix: Array, grid: PlateGrid, *, joined: bool) -> Array:
     """Fold the columns of the tails into the unknowns.
 
-    At the first end the jump goes on as s (a + b ln s) [eq:plate-tail]; where the plate ends on the bed (``joined``)
-    the jump is even about its second end and goes on as a constant.
+    At the first end the jump continues as s (a + b ln s) [eq:plate-tail]; where the plate ends on the bed (``joined``)
+    the jump is even about its second end and continues as a constant.
     """
     folded = matrix[:, grid.first : grid.last].copy()
     if grid.first > 0:

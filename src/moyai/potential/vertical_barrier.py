@@ -27,9 +27,9 @@ class VerticalBarrier:
 
     #: [rad/s]; shape (n,).
     omega: Array
-    #: Of motion along x [kg/m, kg/(m s)]; shape (n,).
+    #: Added mass of motion along x [kg/m]; shape (n,).
     added_mass: Array
-    #: Of motion along x [kg/m, kg/(m s)]; shape (n,).
+    #: Radiation damping of motion along x [kg/(m s)]; shape (n,).
     radiation_damping: Array
     #: ``reflection``, ``transmission``: Of the barrier held fixed, phase at the barrier; shape (n,).
     reflection: ComplexArray

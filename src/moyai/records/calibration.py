@@ -1,7 +1,7 @@
 """Fit the parameters of any model to observations: least squares with bounds, and how far the answer can be trusted.
 
 The model is a function of its parameters; it may be a formula or a whole simulation. Next to the estimate stand its
-covariance, a bootstrap, the fit with each storm left out, and a warning where the observations do not tell the
+covariance, a bootstrap, the fit with each storm left out, and a warning where the observations do not give the
 parameters apart.
 """
 
@@ -34,9 +34,9 @@ class Parameter:
     name: str
     #: First guess.
     start: float
-    #: Bounds.
+    #: Lower bound.
     lower: float = -math.inf
-    #: Bounds.
+    #: Upper bound.
     upper: float = math.inf
     unit: str = ""
 
@@ -79,9 +79,9 @@ class Calibration:
     prediction: Array
     #: See ``prediction``.
     residual: Array
-    #: Of the residual.
+    #: Mean of the residual.
     bias: float
-    #: Of the residual.
+    #: Root mean square of the residual.
     rms: float
     #: Condition number of the scaled sensitivities.
     condition: float
@@ -159,7 +159,7 @@ class _Fitter:
             bounds=(low, high),
             x_scale="jac",
             diff_step=steps,
-            # A hundredth of the step of the slopes is all that they bear, and far below any standard error
+            # A hundredth of the step of the slopes is the least that they resolve, and far below any standard error
             xtol=max(1e-2 * self.step, 1e-12),
             ftol=max(1e-2 * self.step, 1e-12),
             gtol=1e-12,
@@ -214,7 +214,7 @@ def calibrate(
     parameters : sequence of Parameter
         What is unknown, in the order of ``values``.
     error : array_like or float, optional
-        Standard errors of the observations; without them all weigh alike and the scatter tells the error.
+        Standard errors of the observations; without them all weigh alike and the scatter gives the error.
     groups : sequence of str, optional
         Storm, campaign or run of each observation: left out one by one, and drawn whole by the bootstrap.
     bootstrap : int
@@ -396,9 +396,9 @@ def _misfit(weighted: Array, freedom: int) -> tuple[Notice, ...]:
     ratio = math.sqrt(total / freedom)
     message = (
         f"the model misses the observations by {ratio:.3g} times their stated errors: the errors of the parameters, "
-        "which rest on those, are too small"
+        "which follow from them, are too small"
     )
-    return (Notice("misfit", message, ratio, 1.0, remedy="question the model, or leave the errors out"),)
+    return (Notice("misfit", message, ratio, 1.0, remedy="check the model, or do not give errors of the measurements"),)
 
 
 def _notices(
@@ -412,13 +412,13 @@ def _notices(
     notices = []
     if condition > LARGEST_CONDITION:
         pair = _worst_pair(parameters, covariance)
-        message = f"the observations do not tell the parameters apart (condition number {condition:.3g}){pair}"
+        message = f"the observations do not distinguish the parameters (condition number {condition:.3g}){pair}"
         remedy = "fix one of them, fit their product, or add observations that differ in it"
         notices.append(Notice("identifiability", message, condition, LARGEST_CONDITION, remedy=remedy))
     for parameter, value, error in zip(parameters, values, errors):
         reach = 1e-6 * max(abs(value), 1e-12)
         if value - parameter.lower <= reach or parameter.upper - value <= reach:
-            message = f"{parameter.name} stands at its bound {value:.6g}"
+            message = f"{parameter.name} is at its bound {value:.6g}"
             notices.append(Notice("parameter-bound", message, float(value), float(value), remedy="question the bound"))
         elif error > 0.5 * abs(value):
             message = f"{parameter.name} = {value:.4g} is known to {error:.3g} only"

@@ -24,13 +24,13 @@ class SectionGeometry:
     #: Closed outlines of the hull at rest; shape (n, 2).
     outlines: Sequence[Array]
     centre_of_gravity: tuple[float, float]
-    #: NaN where not known.
+    #: Draught; NaN where not known.
     draught: float
-    #: NaN where not known.
+    #: Freeboard; NaN where not known.
     freeboard: float
-    #: NaN where not known.
+    #: Beam; NaN where not known.
     beam: float
-    #: NaN where not known.
+    #: Height of the section; NaN where not known.
     section_height: float
     #: Infinite or NaN: no bed is drawn.
     water_depth: float

@@ -142,7 +142,7 @@ def _place(item: Judgement) -> str:
 
 
 def criteria_note(items: Iterable[Judgement]) -> str:
-    """Return what the reader has to know of the criteria: how they are judged, and that some were assumed."""
+    """Return what the reader has to know about the criteria: how they are judged, and that some were assumed."""
     text = "Judged at the unfavourable end of the band of an uncertain coefficient or of the 95 % interval of a mean."
     if any(item.criterion.assumed for item in items):
         text += " A default of moyai is no requirement of yours: give your own under 'criteria', or 'criteria: none'."

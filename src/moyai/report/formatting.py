@@ -192,7 +192,7 @@ def trimmed(text: str) -> str:
 
 
 def subscripted(text: str) -> str:
-    """Write K_T and its like with a lowered letter of Unicode, for media without markup."""
+    """Write symbols such as K_T with a lowered letter of Unicode, for media without markup."""
     lowered = {"T": "ₜ", "R": "ᵣ"}
     return re.sub(r"\bK_([TR])(?![A-Za-z])", lambda match: "K" + lowered[match.group(1)], text)
 

@@ -28,7 +28,7 @@ from moyai.report.document import (
 )
 from moyai.report.formatting import display_unit
 from moyai.report.html import STATUS_WORDS
-from moyai.report.notices import first_page_notices
+from moyai.report.notices import first_page_notices, value_and_limit
 from moyai.report.reading import Group, root_of, walk
 
 MOST_CURVES = 12
@@ -110,7 +110,7 @@ def case_listing(root: Group) -> Block:
     """Return the text of the case file, folded away."""
     text = str(root.attributes.get("case_text", "")).rstrip()
     if not text:
-        return Paragraph("The result does not carry the text of its case file.", quiet=True)
+        return Paragraph("The result does not contain the text of its case file.", quiet=True)
     return Listing("Case file as it was run", text)
 
 
@@ -171,7 +171,7 @@ def checks_table(result: Result) -> Table:
             Column("Met", ["yes" if check.passed else "NO" for check in checks]),
             Column("Meaning", [check.meaning for check in checks]),
         ),
-        note="Relations that every correct solution obeys, held against this run.",
+        note="Relations that every correct solution satisfies, checked in this run.",
         failed=tuple(row for row, check in enumerate(checks) if not check.passed),
     )
 
@@ -179,14 +179,15 @@ def checks_table(result: Result) -> Table:
 def notices_table(result: Result) -> Table:
     """Return all notices, also those for information."""
     notices = result.notices
+    shown = [value_and_limit(notice) for notice in notices]
     return Table(
         "notices",
         "Notices on the range of validity",
         (
             Column("Kind", [notice.severity for notice in notices]),
             Column("Statement", [notice.message for notice in notices]),
-            Column("Found", [notice.value for notice in notices], uniform=False),
-            Column("Limit", [notice.limit for notice in notices], uniform=False),
+            Column("Found", [value for value, _ in shown], uniform=False),
+            Column("Limit", [limit for _, limit in shown], uniform=False),
             Column("Remedy", [notice.remedy for notice in notices]),
             Column("Source", [notice.source for notice in notices]),
         ),

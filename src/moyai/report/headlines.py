@@ -95,9 +95,9 @@ def band_text(headline: Headline, like: float = 0.0, *, with_judged: bool = True
 
 
 def _judged_end(headline: Headline) -> float:
-    """Return the value that a limit from above is held against, or something bought for; that shown where unknown."""
+    """Return the value that a limit from above is compared with, or something bought for; that shown where unknown."""
     band = headline.band
-    # what a growth that goes on comes to is said with its words
+    # what a growth that continues comes to is said with its words
     if band is None or band.decides or band.judged is None or band.beyond_bound or math.isnan(headline.value):
         return headline.value
     return unfavourable(headline)

@@ -36,7 +36,7 @@ from moyai.report.first_page import COMPUTATION
 from moyai.report.fonts import embedded_style
 from moyai.report.formatting import DASH, column_decimals, format_fixed, format_number, pretty_unit, trimmed
 from moyai.report.language import for_its_reader
-from moyai.report.notices import grouped
+from moyai.report.notices import grouped, value_and_limit
 from moyai.report.packing import pack_arrays
 from moyai.report.systems import words_in_system
 
@@ -115,7 +115,7 @@ def render_html(document: Document) -> str:
     Returns
     -------
     str
-        Complete page; it asks nothing of the network.
+        Complete page; it needs no network.
     """
     page = _Page()
     sections = "\n".join(page.section(section) for section in document.sections)
@@ -461,7 +461,8 @@ def notice_text(notice: Notice, where: str = "") -> tuple[str, str]:
     message = notice.message.strip()
     parts = [where] if where else []
     if notice.value == notice.value and notice.limit == notice.limit:
-        parts.append(f"found {format_number(notice.value)}, limit {format_number(notice.limit)}")
+        value, limit = value_and_limit(notice)
+        parts.append(f"found {format_number(value)}, limit {format_number(limit)}")
     if notice.remedy:
         parts.append(notice.remedy.strip().rstrip("."))
     if notice.source:

@@ -57,7 +57,7 @@ def grouped(notices: Iterable[Notice]) -> tuple[NoticeGroup, ...]:
     Parameters
     ----------
     notices : iterable of Notice
-        Of one kind are those with the same code; warnings of the case file are of one kind when they speak of the same
+        Of one kind are those with the same code; warnings of the case file are of one kind when they are for the same
         key.
     """
     kinds: dict[tuple[str, str], list[Notice]] = {}
@@ -87,6 +87,13 @@ def _group(members: list[Notice]) -> NoticeGroup:
     worst = min(unlike, key=lambda notice: (_RANK.get(notice.severity, 1), -_distance(notice)))
     places = tuple(dict.fromkeys(found.group(1) for notice in unlike if (found := _PLACE.match(notice.message))))
     return NoticeGroup(worst, len(unlike), places if len(unlike) > 1 else ())
+
+
+def value_and_limit(notice: Notice) -> tuple[float, float]:
+    """Return the number of a notice and its limit as a page shows them: angles in degrees."""
+    if notice.unit == "rad":
+        return math.degrees(notice.value), math.degrees(notice.limit)
+    return notice.value, notice.limit
 
 
 def _distance(notice: Notice) -> float:

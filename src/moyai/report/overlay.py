@@ -37,9 +37,9 @@ class Pair:
     x: Array
     #: See ``x``.
     here: Array
-    #: Those of the other result.
+    #: Abscissa of the other result.
     x_there: Array
-    #: Those of the other result.
+    #: Values of the other result.
     there: Array
 
 

@@ -55,7 +55,7 @@ def root_of(result: Result) -> Group:
 class Group:
     """One group of a result.
 
-    What depends on the options of a case may be absent and is blank then; :meth:`require` asks for what is always
+    What depends on the options of a case may be absent and is blank then; :meth:`require` requires what is always
     there. A name that the vocabulary of the result does not declare is an error wherever it is asked for.
     """
 

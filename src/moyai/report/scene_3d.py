@@ -115,9 +115,9 @@ class Waves3D:
     omega: Array
     #: [1/m]; shape (c,).
     wave_number: Array
-    #: [rad]; shape (c,).
+    #: Headings [rad]; shape (c,).
     heading: Array
-    #: [rad]; shape (c,).
+    #: Phases [rad]; shape (c,).
     phase: Array
     #: Half a cosine from the time 0 [s].
     ramp: float = 0.0

@@ -114,7 +114,7 @@ def _inner_words(block: Table | Figure) -> str:
 
 
 class ReportedResult(Result):
-    """A result whose report is at hand: ``tables``, ``figures``, and the first page in a notebook."""
+    """A result with its report: ``tables``, ``figures``, and the first page in a notebook."""
 
     @cached_property
     def document(self) -> Document:
@@ -176,7 +176,7 @@ class ReportedResult(Result):
 
 
 def with_views(result: Result) -> ReportedResult:
-    """Return a result whose tables and figures are at hand.
+    """Return a result with its tables and figures.
 
     Parameters
     ----------
@@ -189,7 +189,7 @@ def with_views(result: Result) -> ReportedResult:
 
 
 def read_result(path: str | os.PathLike[str]) -> ReportedResult:
-    """Read a result written by :meth:`moyai.core.results.Result.write`, with its tables and figures at hand.
+    """Read a result written by :meth:`moyai.core.results.Result.write`, with its tables and figures.
 
     Parameters
     ----------

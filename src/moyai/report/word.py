@@ -1,7 +1,7 @@
 """Write a document as a Word document (DOCX): text, tables and captions by the styles of a template, figures as images.
 
 Captions are counted by fields ``SEQ`` whose numbers are bookmarks; below the heading of each section a sentence names
-its tables and figures by fields ``REF``, so that Word counts both again when text is added (Ctrl+A, F9).
+its tables and figures by fields ``REF``, so that Word numbers both again when text is added (Ctrl+A, F9).
 
 The styles are those of Word by their English names (``Heading 1``, ``Table Grid``, ``Caption``), so that the template
 of an office gives fonts, heads and feet.
@@ -178,7 +178,7 @@ class _WordWriter:
             self._text(said(f"Also in the interactive report: {others}."))
 
     def _caption(self, kind: str, text: str, keep: bool = False) -> None:
-        """Write a caption with a number that Word counts; the number is a bookmark."""
+        """Write a caption with a number given by Word; the number is a bookmark."""
         from docx.oxml import OxmlElement
         from docx.oxml.ns import qn
 

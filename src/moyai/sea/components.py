@@ -154,7 +154,7 @@ class WaveComponents:
 
     def _water(self) -> Water:
         if self.water is None:
-            raise InputError("the components know no water", parameter="water", remedy="give water=Water(depth, ...)")
+            raise InputError("the components have no water", parameter="water", remedy="give water=Water(depth, ...)")
         return self.water
 
     @checks_words

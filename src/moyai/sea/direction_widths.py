@@ -30,7 +30,7 @@ def direction_widths(directions: Array) -> Array:
     Raises
     ------
     InputError
-        For fewer than two directions, one that is not finite, or one that stands twice.
+        For fewer than two directions, one that is not finite, or one that is given twice.
     """
     angle = np.mod(np.asarray(directions, dtype=float), 360.0)
     if angle.size < 2 or not np.isfinite(angle).all():

@@ -17,7 +17,7 @@ from numpy.typing import ArrayLike
 from moyai.core.arrays import Array
 from moyai.core.errors import InputError
 
-#: s_max of Goda and Suzuki (1975) for design in deep water where no measurement tells better.
+#: s_max of Goda and Suzuki (1975) for design in deep water where no measurement gives better.
 GODA_MAXIMUM_EXPONENTS: dict[str, float] = {"wind sea": 10.0, "young swell": 25.0, "old swell": 75.0}
 
 

@@ -1,7 +1,7 @@
 """Regular waves of finite height: Airy, Stokes to fifth order, stream function, behind one interface.
 
 Stokes coefficients come from the library raschii (Fenton 1985). Stream-function waves come from our own Newton solver,
-which goes on where raschii's stops (long waves, waves near breaking, given periods at no extra cost), or from raschii
+which continues where raschii's stops (long waves, waves near breaking, given periods at no extra cost), or from raschii
 itself as an independent solution. The period is that of the fixed frame; the waves may ride on a uniform current.
 """
 
@@ -235,7 +235,8 @@ def nonlinear_wave(
         speed = solution.celerity + current_along_wave
         if speed <= 0.0:
             raise InputError(
-                f"the current of {current_along_wave:g} m/s carries the wave backwards", parameter="current_along_wave"
+                f"the current of {current_along_wave:g} m/s is faster than the wave against it",
+                parameter="current_along_wave",
             )
         for array in (solution.elevation, solution.crest_velocities):
             array.setflags(write=False)
@@ -290,7 +291,7 @@ def _raise_order(
         current=current,
     )
     if period is not None:
-        # tells blocking by the current before any iteration
+        # gives blocking by the current before any iteration
         dispersion.wave_number_in_current(problem.omega, water.depth, water.gravity, current)
     found: StreamFunctionSolution | None = None
     wave: NonlinearWave | None = None

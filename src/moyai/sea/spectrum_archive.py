@@ -28,7 +28,7 @@ class SpectrumArchive:
     frequency: Array
     #: [m2/Hz]; NaN where a record holds nothing for a place; shape (time, place, f).
     density: Array
-    #: Mean direction that the waves come from, clockwise from north [degrees]; NaN where the file tells none; shape
+    #: Mean direction that the waves come from, clockwise from north [degrees]; NaN where the file gives none; shape
     #: (time, place).
     direction: Array
     #: Where the waves of a two-dimensional spectrum come from, clockwise from north [degrees]; shape (d,).

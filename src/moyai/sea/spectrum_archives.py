@@ -1,6 +1,6 @@
 """Wave spectra as wave models and buoys write them: SWAN, WAVEWATCH III, NDBC.
 
-Every reader gives the same: times, places, frequencies, frequency spectra, and mean directions where the file tells
+Every reader gives the same: times, places, frequencies, frequency spectra, and mean directions where the file gives
 them. Format descriptions: SWAN user manual, appendix on spectral files; WAVEWATCH III user manual, point output; NDBC
 web data guide. Checked against files of all three. Other formats are left to the library wavespectra
 (:mod:`moyai.sea.spectrum_wavespectra`) where it is installed.
@@ -276,7 +276,7 @@ def _ww3_netcdf(data: xr.Dataset) -> SpectrumArchive:
     return SpectrumArchive("ww3", times, places, frequency, spread @ widths, mean, came_from, spread * widths)
 
 
-#: Numbers in front of frequencies in brackets; a number starts where none goes on, else a long one is read again from
+#: Numbers in front of frequencies in brackets; a number starts where none continues, else a long one is read again from
 #: each of its digits.
 _BEFORE_BRACKETS = re.compile(r"(?<![\d.])([\d.]+)\s+\(")
 

@@ -24,7 +24,7 @@ NETCDF_KINDS = {"d2fd": "era5", "density": "ncswan", "AC": "wwm"}
 
 
 def kind_of(path: str | Path) -> str:
-    """Return the reader of wavespectra that a file is surely for, empty where its beginning does not tell.
+    """Return the reader of wavespectra that a file is surely for, empty where its beginning does not show it.
 
     Parameters
     ----------
@@ -51,7 +51,7 @@ def read_with_wavespectra(path: str | Path, kind: str = "") -> SpectrumArchive:
     ----------
     path : path-like
     kind : str
-        Reader of wavespectra, where the file tells it; found from its beginning when empty, else tried in turn.
+        Reader of wavespectra, where the file gives it; found from its beginning when empty, else tried in turn.
 
     Returns
     -------

@@ -65,13 +65,13 @@ class ComponentSea:
 
     #: Label of the sea state.
     name: str
-    #: Of the waves a cos(k (x cos b + y sin b) - omega t + phase) [rad/s, m, rad, rad]; shape (n,).
+    #: Angular frequency of the waves a cos(k (x cos b + y sin b) - omega t + phase) [rad/s]; shape (n,).
     omega: NDArray[np.float64]
-    #: Of the waves a cos(k (x cos b + y sin b) - omega t + phase) [rad/s, m, rad, rad]; shape (n,).
+    #: Their amplitude a [m]; shape (n,).
     amplitude: NDArray[np.float64]
-    #: Of the waves a cos(k (x cos b + y sin b) - omega t + phase) [rad/s, m, rad, rad]; shape (n,).
+    #: Their phase [rad]; shape (n,).
     phase: NDArray[np.float64]
-    #: Of the waves a cos(k (x cos b + y sin b) - omega t + phase) [rad/s, m, rad, rad]; shape (n,).
+    #: Their heading b [rad]; shape (n,).
     headings: NDArray[np.float64]
     #: Of the run [s]; ``None``: the case says it elsewhere.
     duration: float | None = None

@@ -239,7 +239,7 @@ def solve_stream_function(
     Raises
     ------
     ConvergenceError
-        When the continuation stops below the height wanted; the message tells how far it came.
+        When the continuation stops below the height wanted; the message gives how far it came.
     """
     if estimate is not None:
         refined = _refine(estimate, problem, order)

@@ -75,7 +75,7 @@ def fourier_bins(
             lost = 1.0 - spectrum.moment(0, low, nyquist) / spectrum.moment(0, low, high) if nyquist > low else 1.0
             if lost > 0.01:
                 raise InputError(
-                    f"time_step of {time_step:g} s cannot carry {100.0 * lost:.3g} % of the wave energy",
+                    f"time_step of {time_step:g} s cannot resolve {100.0 * lost:.3g} % of the wave energy",
                     parameter="time_step",
                     allowed=f"shorter than {math.pi / high:.4g} s",
                 )

@@ -64,7 +64,7 @@ class AcerFit:
 def _level_of(tail: AcerFit, rate: float) -> float:
     if not 0.0 < rate < tail.q:
         raise InputError(
-            "the number of peaks is too small for the tail", parameter="count", remedy="ask for a rarer level"
+            "the number of peaks is too small for the tail", parameter="count", remedy="choose a rarer level"
         )
     return float(tail.b + (math.log(tail.q / rate) / tail.a) ** (1.0 / tail.c))
 

@@ -12,7 +12,7 @@ from moyai.series.intervals import deviations_along
 
 #: Blocks that a record is cut into, at most and at least; a block holds that many periods or more.
 MOST_BLOCKS, LEAST_BLOCKS, PERIODS = 20, 6, 4.0
-#: Periods below which the largest value of a record tells nothing of a storm.
+#: Periods below which the largest value of a record shows nothing of a storm.
 LEAST_PERIODS = LEAST_BLOCKS * PERIODS
 
 
@@ -20,7 +20,7 @@ LEAST_PERIODS = LEAST_BLOCKS * PERIODS
 class Maximum:
     """The largest value of records of one length."""
 
-    #: Largest value of the record at hand.
+    #: Largest value of the present record.
     observed: float
     #: ``mean``, ``deviation``: Over all records of that length, estimated from the maxima of blocks.
     mean: float

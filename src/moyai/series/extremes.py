@@ -359,7 +359,7 @@ def check_fit(fitted: ExtremeFit, values: ArrayLike) -> tuple[Notice, ...]:
         notices.append(
             Notice(
                 "extremes-few",
-                f"{n} values stand behind the fit; below 20 its interval is rough",
+                f"{n} values are used in the fit; below 20 its interval is rough",
                 float(n),
                 20.0,
                 remedy="run more seeds",

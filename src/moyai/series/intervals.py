@@ -18,11 +18,11 @@ GUMBEL_SKEWNESS, GUMBEL_KURTOSIS = 1.1395, 5.4
 class Interval:
     """An estimate with its confidence interval."""
 
-    #: Of the unit of the data.
+    #: Estimate, in the unit of the data.
     value: float
-    #: Of the unit of the data.
+    #: Lower end of its interval.
     lower: float
-    #: Of the unit of the data.
+    #: Upper end of its interval.
     upper: float
     #: Probability that the interval covers.
     confidence: float
@@ -88,7 +88,7 @@ def reach_of_mean(values: ArrayLike, probability: float = 0.95, *, alike: ArrayL
         That the mean of very many samples lies below the end of the interval.
     alike : array_like
         More values whose scatter over their mean is that of the first, such as those of another mesh: the larger of
-        both scatters counts, known as well as the larger sample tells.
+        both scatters counts, known as well as the larger sample gives.
 
     Raises
     ------

@@ -119,7 +119,7 @@ def _falling_root(excess: object, kinds: Sequence[PeakKind]) -> float:
     step = max(one.fitted.scale for one in kinds)
     if excess(low) <= 0.0:
         raise InputError(
-            "there are too few peaks for a maximum", parameter="times", remedy="ask for a longer time or a larger share"
+            "there are too few peaks for a maximum", parameter="times", remedy="give a longer time or a larger share"
         )
     high = low + step
     for _ in range(200):

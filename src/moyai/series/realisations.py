@@ -10,7 +10,7 @@ from moyai.core.arrays import Array
 from moyai.core.headline import Band, Bound
 from moyai.series.intervals import reach_of_mean
 
-#: Key of breakwaters and rows of units that asks for more of them.
+#: Key of breakwaters and rows of units for more of them.
 MORE = "settings.time.realisations"
 
 
@@ -18,7 +18,7 @@ def seeds(scatter: Array, bound: Array | None = None, more: str = MORE) -> Band 
     """Return the band of realisations: they scatter about their mean, which is the number.
 
     Criteria are judged at the end of the one-sided 95 % interval of that mean, since few realisations leave
-    it uncertain; with a bound on each realisation, of the mean of the bounds. ``more`` is the key that asks for more.
+    it uncertain; with a bound on each realisation, of the mean of the bounds. ``more`` is the key for more.
     """
     if scatter.size < 2 or not np.isfinite(scatter).all():
         return None
@@ -57,7 +57,7 @@ def storms(value: float, mean: float, factor: float) -> Band | None:
 
 
 #: What is said of a number of one realisation.
-ALONE = "one realisation: others may give more, ask for three or more"
+ALONE = "one realisation: others may give more, run three or more"
 
 
 def alone(scatter: Array) -> Bound:

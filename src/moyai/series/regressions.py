@@ -266,9 +266,9 @@ def type_ratio(reference: ArrayLike, other: ArrayLike, *, confidence: float = 0.
 class ClassFit:
     """A class of directions against the line of all observations."""
 
-    #: Bounds of the class [rad].
+    #: Lower bound of the class [rad].
     low: float
-    #: Bounds of the class [rad].
+    #: Upper bound of the class [rad].
     high: float
     #: Observations.
     count: int

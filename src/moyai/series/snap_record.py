@@ -135,7 +135,7 @@ def read_snap(
     tension : array_like, shape (n,) or (cables, n)
         [N].
     unloaded : sequence of (float, float)
-        Intervals [s] in which the cables carry nothing: one gives the zero level, two or more (before and after the
+        Intervals [s] in which the cables have no tension: one gives the zero level, two or more (before and after the
         test) its drift as well.
     names : sequence of str, optional
         Of the cables.
@@ -173,7 +173,7 @@ def read_snap(
     largest = int(inside[np.argmax(total[inside])])
     if total[largest] < _LOUDEST_NOISE * noise or total[largest] <= 0.0:
         raise InputError(
-            f"the largest tension, {total[largest]:.4g} N, does not stand out of the noise of {noise:.3g} N",
+            f"the largest tension, {total[largest]:.4g} N, does not exceed the noise of {noise:.3g} N",
             parameter="tension",
             allowed=f"above {_LOUDEST_NOISE:g} standard deviations",
             remedy="check the intervals called unloaded, and the sign of the gauge",
@@ -270,7 +270,7 @@ def _top(t: Array, row: Array, largest: int, rough: int, noise: float) -> tuple[
     """Return top and time of a parabola through the samples about the peak.
 
     From half height to the top a sine takes two thirds of its rise; the parabola spans a third of the rise to each
-    side where noise asks for it, and three samples otherwise.
+    side where noise requires it, and three samples otherwise.
     """
     reach = 1 if noise < 1e-3 * row[largest] else max(1, round(0.45 * rough))
     reach = min(reach, largest, len(row) - 1 - largest)
@@ -416,7 +416,7 @@ def _check(found: MeasuredSnap, slope: float, intervals: int, end: float) -> tup
         notices.append(
             Notice(
                 "snap-release",
-                "The release is not seen: the slow rise does not stand out of the noise",
+                "The release is not detected: the slow rise does not exceed the noise",
                 severity="information",
                 remedy="give release_time from a trigger",
                 source="three standard deviations",

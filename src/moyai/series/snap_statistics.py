@@ -82,7 +82,7 @@ class SnapFit:
                 f"{self.rate.value * hours:.3g} peaks above the threshold are expected in {hours:g} h",
                 parameter="hours",
                 allowed=f"at least {2.0 / self.rate.value:.3g} h",
-                remedy="ask for a longer time, or lower the threshold",
+                remedy="give a longer time, or lower the threshold",
             )
         return self._interval(lambda shape, scale, rate: _mode(self.law, shape, scale, max(rate * hours, 1.0)))
 
@@ -238,7 +238,7 @@ def dispersion(time: ArrayLike, start: float, duration: float, blocks: int) -> f
         raise InputError(f"blocks is {blocks}", parameter="blocks", allowed="at least 2")
     counts, _ = np.histogram(np.asarray(time), bins=blocks, range=(start, start + duration))
     if counts.sum() == 0:
-        raise InputError("no event lies in the blocks", parameter="time", allowed="at least one event")
+        raise InputError("no event is in the blocks", parameter="time", allowed="at least one event")
     return float(counts.var(ddof=1) / counts.mean())
 
 
@@ -248,7 +248,7 @@ def _check_fit(law: SnapLaw, count: int, shape: float, distance: float) -> tuple
         notices.append(
             Notice(
                 "snap-few",
-                f"{count} peaks carry the fit; the law of the largest is hardly determined",
+                f"{count} peaks are used in the fit; the distribution of the largest is poorly determined",
                 float(count),
                 float(_FEW),
                 remedy="simulate a longer sea or more seeds",

@@ -86,9 +86,9 @@ class HeightFit:
 
     #: The distribution; a shape of 2 is Rayleigh's.
     fitted: ExtremeFit
-    #: Standard errors by the observed information.
+    #: Standard error of the scale, by the observed information.
     scale_error: float
-    #: Standard errors by the observed information.
+    #: Standard error of the shape, by the observed information.
     shape_error: float
     #: Largest distance of the empirical from the fitted distribution (Kolmogorov) [-].
     distance: float

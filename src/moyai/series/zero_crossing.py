@@ -36,9 +36,9 @@ class WaveOptions:
     crest: Literal["sample", "parabola"] = "parabola"
     #: How N/3 and N/10 are rounded to whole waves (at least one); one of "nearest", "down", "up".
     share: Rounding = "nearest"
-    #: Waves with other periods are left out of the statistics [s].
+    #: Waves with shorter periods are left out of the statistics [s].
     shortest: float = 0.0
-    #: Waves with other periods are left out of the statistics [s].
+    #: Waves with longer periods are left out of the statistics [s].
     longest: float = math.inf
 
     def __post_init__(self) -> None:
@@ -165,7 +165,7 @@ def share_of(count: int, fraction: float, rounding: Rounding = "nearest") -> int
 def _find_waves(values: Array, times: Array, band: float, parabola: bool, gap: float, out: Array) -> int:
     """Fill ``out[:, wave]`` with start, period, crest, trough; return the number of waves.
 
-    A NaN, and a step longer than ``gap``, end the wave at hand without counting it.
+    A NaN, and a step longer than ``gap``, end the present wave without counting it.
     """
     count = 0
     open_wave = False

@@ -36,7 +36,7 @@ _WAVES = 1000.0
 
 
 def assess(study: Study, result: Result, wanted: schema.Assessment | None) -> Result:
-    """Add what the study asks for to its result.
+    """Add what the study requires to its result.
 
     Parameters
     ----------
@@ -197,7 +197,7 @@ def _anchors(
 
     pulls = [item for item in found if item.uplift is not None]
     if not pulls:
-        raise InputError("no case tells the pull at the anchors", path="assess.anchors")
+        raise InputError("no case gives the pull at the anchors", path="assess.anchors")
     dims = [axis.name for axis in study.axes]
     lines = [str(one) for one in pulls[0].maximum.coords["line"].values]
     for line in wanted:
@@ -211,7 +211,7 @@ def _anchors(
             data = holding_data(given.kind, given.name, given.bed)
             coefficient, sure, source = data.value, data.confirmed, data.source
         if not sure:
-            message = f"the holding of {given.name} on {given.bed} ({coefficient:g}) was not held against its source"
+            message = f"the holding of {given.name} on {given.bed} ({coefficient:g}) was not compared with its source"
             notices[message] = Notice("anchor-unconfirmed", message, remedy="give 'coefficient'", source=source)
         for t, item in enumerate(pulls):
             assert item.uplift is not None
@@ -292,7 +292,7 @@ def _long_term(study: Study, result: Result, wanted: schema.LongTerm) -> tuple[x
             "long-term-rayleigh",
             message,
             severity="information",
-            remedy="say how many 'waves', or run seeds and name their axis",
+            remedy="give the number of 'waves', or run seeds and name their axis",
         )
     ]
 
@@ -377,5 +377,5 @@ def _largest_of(study: Study, response: xr.DataArray) -> list[tuple[str, int, fl
 
 
 def utilised(result: Result) -> bool:
-    """Whether lines or anchors were held against something: their utilisations govern then."""
+    """Whether lines or anchors were compared with something: their utilisations govern then."""
     return any(has(result, f"/assessment/{group}", "utilisation") for group in ("lines", "anchors"))

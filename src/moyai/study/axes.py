@@ -94,7 +94,7 @@ class Combination:
     removals: tuple[str, ...] = ()
     options: Assignments = ()
 
-    # Options are what a search inside the case asks for, such as the limit of a trade-off; they start with '@'
+    # Options are what a search inside the case requires, such as the limit of a trade-off; they start with '@'
 
 
 def combinations(axes: Sequence[Axis]) -> tuple[Combination, ...]:

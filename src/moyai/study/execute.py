@@ -1,4 +1,4 @@
-"""Run a study: the diary in front, the workers behind, and the same command goes on where it was stopped."""
+"""Run a study: the diary in front, the workers behind, and the same command continues where it was stopped."""
 
 from __future__ import annotations
 
@@ -94,7 +94,7 @@ def run_study(
     Returns
     -------
     Result
-        Status ``interrupted`` when it was stopped; the same call goes on.
+        Status ``interrupted`` when it was stopped; the same call continues.
 
     Raises
     ------
@@ -170,8 +170,8 @@ def _require_watched(study: Study, known: dict[int, LedgerRecord]) -> bool:
             f"no case keeps the response '{study.watch}' that is watched",
             path="study.watch",
             allowed=", ".join(near) or error.fault.allowed,
-            remedy="name one that is kept, or ask for this one under 'responses' with its reduction; cases that ended "
-            "are kept, and the same command goes on",
+            remedy="name one that is kept, or request this one under 'responses' with its reduction; cases that ended "
+            "are kept, and the same command continues",
         ) from None
     return True
 

@@ -196,7 +196,7 @@ def _of_peaks(rows: list[list[Array]], mean: float, wanted: schema.ExtremesOfSee
         snaps, others = pooled
         if 0 < snaps.size < _FEW_SNAPS or 0 < others.size < _FEW_SNAPS:
             few = "snap" if snaps.size < others.size else "other"
-            message = f"{min(snaps.size, others.size)} {few} peaks are too few for a fit of their own: taken together"
+            message = f"{min(snaps.size, others.size)} {few} peaks are too few for a separate fit: taken together"
             notices.append(Notice("extremes-few-snaps", message, remedy="run more seeds"))
             pooled = [np.concatenate(pooled)]
         else:

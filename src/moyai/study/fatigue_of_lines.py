@@ -142,7 +142,7 @@ def _notices(curves: dict[str, EnduranceData], wanted: schema.Fatigue) -> list[N
     found = {}
     for curve in curves.values():
         if not (curve.confirmed or wanted.confirmed):
-            message = f"the endurance curve '{curve.name}' was not held against the standard itself"
-            remedy = "compare it with your copy and say 'confirmed: true'"
+            message = f"the endurance curve '{curve.name}' was not compared with the standard itself"
+            remedy = "compare it with your copy and give 'confirmed: true'"
             found[curve.name] = Notice("curve-unconfirmed", message, remedy=remedy, source=curve.source)
     return list(found.values())

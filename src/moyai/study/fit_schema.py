@@ -28,7 +28,7 @@ class Observations(Block):
     ]
     units: Annotated[dict[str, str], Field(default_factory=dict, description="Unit of a column without one.")]
     observed: Annotated[str, Field(description="Column of the observation, in the unit of the response.")]
-    response: Annotated[str, Field(description="Response of the case it stands for; the largest entry counts.")]
+    response: Annotated[str, Field(description="Response of the case that it represents; the largest entry is used.")]
     error: Annotated[str, Field(description="Column of the standard error of the observation.")] = ""
     group: Annotated[str, Field(description="Column of the storm or test: left out one by one.")] = ""
 

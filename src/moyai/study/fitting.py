@@ -413,7 +413,7 @@ def _replace(lines: list[str], document: CaseDocument, place: KeyPath, new: str)
     """Return the lines with the scalar at a place replaced; a key that is not there is set in a block of its parent."""
     if place not in document.values:
         raise InputError(
-            f"'{place[-1]}' does not stand in the case file, so its value cannot be written there",
+            f"'{place[-1]}' is not in the case file, so its value cannot be written there",
             path=str(place[-1]),
             remedy="write it into the case with any value first",
         )

@@ -31,7 +31,7 @@ class Found:
 
     @property
     def remark(self) -> str:
-        """What the reader has to know of the search; empty where it settled."""
+        """What the reader has to know about the search; empty where it settled."""
         return "" if self.settled else "the search ended at its 'evaluations' before it settled: better may be found"
 
 

@@ -207,7 +207,7 @@ def _locked(folder: Path) -> IO[str]:
             f"another run is at work in {folder}", path="output", remedy="wait for its end, or choose another folder"
         ) from None
     except OSError:
-        # Some network file systems know no locks; the diary itself stands two writers, at the price of double work
+        # Some network file systems have no locks; the diary itself stands two writers, at the price of double work
         pass
     return file
 

@@ -241,7 +241,7 @@ def _lost_scheduler() -> InputError:
     return InputError(
         "the connection to the scheduler of the cluster was lost",
         path="on",
-        remedy="start the scheduler and its workers and give the same command again: it goes on with the cases left",
+        remedy="start the scheduler and its workers and give the same command again: it continues with the cases left",
     )
 
 

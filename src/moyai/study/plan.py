@@ -34,7 +34,7 @@ _CHECKED_ALL = 500
 def _one_realisation_a_seed(base: CaseDocument, axes: list[Axis]) -> CaseDocument:
     """Return the base case of a breakwater with one realisation a case where the study itself varies seeds.
 
-    The maxima over the seeds are then maxima, not means of several, unless the case asks for realisations itself.
+    The maxima over the seeds are then maxima, not means of several, unless the case requires realisations itself.
     """
     paths = [path for axis in axes for point in axis.points for path, _ in point.assignments]
     data = base.data
@@ -227,7 +227,7 @@ def check_cases(study: Study, progress: Progress = silent) -> tuple[str, tuple[i
             more = refused[key] - 1
             faults.append(replace(fault, message=fault.message + (f" (and {more} more cases)" if more else "")))
         if some:
-            skip = "to go on without such cases: 'on_refused: skip' in the study"
+            skip = "to continue without such cases: 'on_refused: skip' in the study"
             faults[-1] = replace(faults[-1], remedy="; ".join(part for part in (faults[-1].remedy, skip) if part))
         raise CaseError(faults)
     return hashes.hexdigest(), tuple(left_out)

@@ -27,7 +27,7 @@ def check_kind(document: CaseDocument) -> None:
 
 
 def unknown_keys(axes: tuple[Axis, ...], base: CaseDocument, base_path: Path) -> list[Fault]:
-    """Return the faults of keys that the case does not know, each path of the axes tried once on its own.
+    """Return the faults of keys that the case does not have, each path of the axes tried once on its own.
 
     Reported together with paths that lead nowhere, so that all slips of one kind are corrected in one go.
     """
@@ -43,7 +43,7 @@ def unknown_keys(axes: tuple[Axis, ...], base: CaseDocument, base_path: Path) ->
 
 
 def faults_at(base: CaseDocument, base_path: Path, entries: Assignments) -> list[Fault]:
-    """Return the faults of the case with these values, of those that speak of one of their paths."""
+    """Return the faults of the case with these values, of those that are for one of their paths."""
     places = {dotted(place): path for path, _ in entries for place in resolve(base.data, path)}
     try:
         case_of(varied(base, Combination(-1, (), entries)), base_path)
@@ -84,7 +84,7 @@ def check_search(
 
 
 def place_of(document: CaseDocument, where: KeyPath, path: str) -> KeyPath:
-    """Return the place in the study file that speaks of ``path``, or the variation as a whole."""
+    """Return the place in the study file that is for ``path``, or the variation as a whole."""
     named = [place for place in document.keys if place[: len(where)] == where and path and str(place[-1]) == path]
     if named:
         return named[0]
@@ -108,7 +108,7 @@ def check_names(document: CaseDocument, axes: list[Axis]) -> None:
     twice = sorted({name for name in names if names.count(name) > 1})
     if twice:
         message = f"two axes are called '{twice[0]}'"
-        remedy = "give them names of their own with 'name'"
+        remedy = "give them different names with 'name'"
         raise CaseError([document.fault(("study", "variations"), message, remedy=remedy)])
     paths: dict[str, str] = {}
     for axis in axes:

@@ -102,7 +102,7 @@ def largest_tensions(held: xr.Dataset, keep: Collection[str] | None = None) -> d
     Returns
     -------
     dict
-        By the common names; empty where the group tells no tensions of lines.
+        By the common names; empty where the group gives no tensions of lines.
     """
     largest = held.get(LINE_TENSION_MAXIMUM.name)
     if largest is None or "line" not in largest.dims:

@@ -60,7 +60,7 @@ class _Leaf:
 def scale_case(case: Case, scale: Scale, *, from_model: bool = False, digits: int = 7) -> ScaledCase:
     """Return a case in another size by Froude with the Cauchy number kept [eq:similarity-ratio].
 
-    Units, order and comments stay; each changed line tells the value and the factor it comes from. Lines of the
+    Units, order and comments stay; each changed line gives the value and the factor it comes from. Lines of the
     catalogue become lines with figures of their own, since stretch and strength of a thinner chain would not follow
     the scale. Lengths, times and the like that were left to a default are written out.
 
@@ -304,7 +304,7 @@ def _factor(ratio: float, from_model: bool) -> str:
 def _replace(edits: Edits, leaf: _Leaf, text: str, remark: str) -> None:
     if not edits.replace(leaf.node, text, remark):
         raise InputError(
-            "one figure stands for quantities that scale differently (a YAML alias)",
+            "one value is used for quantities that scale differently (a YAML alias)",
             path=dotted(leaf.path),
             remedy="write the figure out at each place",
         )
@@ -394,6 +394,6 @@ def _header(case: Case, scale: Scale, from_model: bool) -> str:
         f"{sizes[0]} of '{case.path.name}', made by 'moyai scale': Froude, Cauchy number kept.",
         f"Prototype over model: {ratios}.",
         f"Density of the water {scale.density:.6g}, gravity {scale.gravity:.6g} times.",
-        f"Behind a changed value stands that of the {sizes[1]} and the factor; other comments are of the file given.",
+        f"Behind a changed value is that of the {sizes[1]} and the factor; other comments are of the file given.",
     ]
     return "".join(f"# {line}\n" for line in lines) + "\n"

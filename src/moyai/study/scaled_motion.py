@@ -20,7 +20,7 @@ def motions_of(scaled: ScaledCase, case: Case) -> dict[str, WaterMotion]:
     """Return how fast the water passes the structure and its thinnest member, in the prototype.
 
     The speed is that of the current and of the largest wave at the surface by linear theory together; a member is
-    missing where the case does not tell its size, all are where nothing moves.
+    missing where the case does not give its size, all are where nothing moves.
 
     Parameters
     ----------

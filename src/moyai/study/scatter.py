@@ -54,7 +54,7 @@ def read_scatter(file: Path, *, counts: bool = False) -> tuple[SeaState, ...]:
         raise InputError(
             f"{file.name}: the probabilities sum to {total:.6g}, not to 1",
             path="scatter.file",
-            remedy="correct the diagram, or say 'counts: true' if the cells are numbers of sea states",
+            remedy="correct the diagram, or give 'counts: true' if the cells are numbers of sea states",
         )
     return tuple(SeaState(cell.significant_height, cell.period, cell.probability / total) for cell in cells)
 

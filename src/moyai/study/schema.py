@@ -345,7 +345,7 @@ class Fatigue(Block):
     ]
     equivalent_cycles: Annotated[
         PositiveNumber | None,
-        Field(description="A year; tells the constant range of tension that does the same damage in so many cycles."),
+        Field(description="A year; gives the constant range of tension that does the same damage in so many cycles."),
     ] = None
     over: Annotated[str, Field(description="Axis of the sea states with their probabilities.")] = "sea_state"
     safety_factor: Annotated[PositiveNumber, Field(description="On life.")] = 1.0
@@ -353,7 +353,7 @@ class Fatigue(Block):
 
 
 class TensionOfLine(Block):
-    """Where the results tell the tension of a line, for structures that do not list lines by name."""
+    """Where the results give the tension of a line, for structures that do not list lines by name."""
 
     maximum: Annotated[str, Field(description="Response; the largest entry of an array counts.")]
     mean: Annotated[str, Field(description="Response, for codes that part mean and dynamic tension.")] = ""

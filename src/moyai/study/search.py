@@ -1,6 +1,6 @@
 """Search inside a case: up to which value it holds, and which values are best.
 
-Both wrap what runs one case, so that a study of them resumes, spreads over workers and tells
+Both wrap what runs one case, so that a study of them resumes, spreads over workers and gives
 its failures like any other.
 """
 

@@ -1,4 +1,4 @@
-"""Responses of a study by name, and the tensions that its lines are held against."""
+"""Responses of a study by name, and the tensions that its lines are compared with."""
 
 from __future__ import annotations
 
@@ -28,11 +28,11 @@ class Tensions:
 
     #: Where they stand in the results.
     group: str
-    #: [N]
+    #: Largest tensions [N].
     maximum: xr.DataArray
-    #: [N]
+    #: Mean tensions [N].
     mean: xr.DataArray
-    #: [N]
+    #: Breaking loads [N].
     breaking: xr.DataArray
     #: Largest vertical pull at the anchor [N].
     uplift: xr.DataArray | None
@@ -73,7 +73,7 @@ def response(result: Result, text: str) -> xr.DataArray:
 
 
 def tensions(study: Study, result: Result, named: Mapping[str, schema.TensionOfLine]) -> list[Tensions]:
-    """Return the tensions of the lines: as the study file names them, or as the results tell them.
+    """Return the tensions of the lines: as the study file names them, or as the results give them.
 
     Raises
     ------
@@ -110,7 +110,7 @@ def _largest(found: xr.DataArray, axes: list[str]) -> xr.DataArray:
 
 
 def breaking_loads(result: Result, level: str) -> xr.DataArray | None:
-    """Return the breaking loads of the lines at a water level, wherever the structure tells them."""
+    """Return the breaking loads of the lines at a water level, wherever the structure gives them."""
     groups = (node.path for node in result.tree.subtree if node.path.strip("/").split("/")[0] == level)
     where = next((path for path in groups if has(result, path, BREAKING_LOAD.name)), None)
     return None if where is None else variable(result, where, BREAKING_LOAD.name)
@@ -135,7 +135,7 @@ def _found_by_name(study: Study, result: Result) -> list[Tensions]:
         )
     if not found:
         raise InputError(
-            "no case tells tensions of lines",
+            "no case gives tensions of lines",
             path="assess.lines",
             remedy="let the cases run 'frequency' or 'time', or name the responses under 'assess.tensions'",
         )

@@ -1,4 +1,4 @@
-"""What one case, run as a trial, tells of a study before it runs."""
+"""What one case, run as a trial, shows of a study before it runs."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ if TYPE_CHECKING:
 
 
 def require_responses(study: Study, tree: xr.DataTree) -> None:
-    """Require that a case's result tells every response that the study speaks of.
+    """Require that a case's result gives every response that the study names.
 
     Parameters
     ----------

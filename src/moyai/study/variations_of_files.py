@@ -104,7 +104,7 @@ def spectra(given: schema.SpectraOfFile, ground: StudyBase) -> tuple[Axis, ...]:
         if given.direction:
             bearing = float(archive.direction[record, given.place])
             if not math.isfinite(bearing):
-                raise InputError(f"{given.file} tells no direction for record {record}", path="direction")
+                raise InputError(f"{given.file} gives no direction for record {record}", path="direction")
             block.pop("heading_deg", None)
             block["from_bearing_deg"] = round(bearing, 3)
         points.append(Point(archive.time[record], ((given.sea, block),)))

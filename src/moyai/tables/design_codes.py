@@ -37,7 +37,7 @@ class CodeRule:
     #: ``safety_factor``, ``partial_mean``, ``partial_dynamic``, ``load_factor``, ``material_factor`` or ``share``.
     rule: Literal["safety_factor", "partial_mean", "partial_dynamic", "load_factor", "material_factor", "share"]
     value: float
-    #: Whether it was held against the standard itself.
+    #: Whether it was compared with the standard itself.
     confirmed: bool
     source: str
 

@@ -28,13 +28,13 @@ class EdgeDampingNumbers:
     thin_plate: float
     #: Bilge radius over the shorter face beyond which no corner is left.
     largest_radius: float
-    #: Half beam over draught that the law of round bilges is held to.
+    #: Least half beam over draught of the law of round bilges.
     ikeda_half_beam_low: float
-    #: Half beam over draught that the law of round bilges is held to.
+    #: Largest half beam over draught of that law.
     ikeda_half_beam_high: float
-    #: Factors on the damping for the band of an answer.
+    #: Factor on the damping at the low end of the band.
     band_low: float
-    #: Factors on the damping for the band of an answer.
+    #: Factor on the damping at the high end of the band.
     band_high: float
 
     @property

@@ -26,7 +26,7 @@ class FlumeMaterial:
     density: float
     #: Low and high tensile strength [Pa].
     strength: tuple[float, float]
-    #: Whether every value was read in the source named; otherwise measure the line at hand.
+    #: Whether every value was read in the source named; otherwise measure the line given.
     confirmed: bool
     #: Where the values come from.
     source: str

@@ -36,9 +36,9 @@ class LineProperties:
     drag_normal: float
     #: See ``drag_normal``.
     drag_tangential: float
-    #: Added-mass coefficients on the displaced volume [-].
+    #: Added-mass coefficient across, on the displaced volume [-].
     added_mass_normal: float
-    #: Added-mass coefficients on the displaced volume [-].
+    #: Added-mass coefficient along, on the displaced volume [-].
     added_mass_tangential: float
     #: Range of the source [m].
     diameter_range: tuple[float, float]
@@ -163,7 +163,7 @@ def check_line_properties(properties: LineProperties) -> tuple[Notice, ...]:
         notices.append(
             Notice(
                 "line-values-unconfirmed",
-                f"{properties.name}: not every catalogue value was seen in its source",
+                f"{properties.name}: not every catalogue value was compared with its source",
                 severity="information",
                 remedy="give the breaking load of the maker's certificate before design use",
                 source=properties.source,

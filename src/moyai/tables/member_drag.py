@@ -20,9 +20,9 @@ class DragEntry:
     drag: float
     #: See ``drag``.
     inertia: float
-    #: Range of the Reynolds number that it was found in.
+    #: Least Reynolds number of its measurements.
     reynolds_low: float
-    #: Range of the Reynolds number that it was found in.
+    #: Largest Reynolds number of its measurements.
     reynolds_high: float
     #: Whether the value was read in the source named; otherwise check before design use.
     confirmed: bool

@@ -21,9 +21,9 @@ class NetRow:
     """One of the ten nets, as printed, with what its columns say of each other."""
 
     name: str
-    #: [m].
+    #: Diameter of the twine [m].
     twine_diameter: float
-    #: [m].
+    #: Opening of the mesh [m].
     aperture: float
     #: Of the panel's wires [m2], as printed.
     projected_area: float

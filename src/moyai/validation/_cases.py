@@ -1,4 +1,4 @@
-"""Compute published and exact cases again and hold them against their references."""
+"""Compute published and exact cases again and compare them with their references."""
 
 from __future__ import annotations
 

@@ -136,7 +136,7 @@ CASES: tuple[ValidationCase, ...] = (
     ),
     ValidationCase(
         "cage: pull on the collar over drag on the net, 0.4 m/s",
-        "equilibrium of a net that gives way",
+        "equilibrium of a flexible net",
         _balance,
         1.0,
         5e-3,

@@ -15,16 +15,21 @@ from moyai.mooring.system import LineSystem, PlanarLineSystem
 _NAKAMURA = "Nakamura, Ohmori and Ide: chain of the model, by an independent prototype"
 
 
-def _nakamura() -> PlanarLineSystem:
-    """Model of the floating breakwater with four chains: w = 1.122 N/m, EA = 2.14e4 N, 1.975 m each."""
-    chain = LineType("chain", 1.122, 2.14e4)
+#: Reach, rise, length [m], EA [N] and weight in water [N/m] of that chain.
+NAKAMURA_CHAIN = (1.925, 0.267, 1.975, 2.14e4, 1.122)
+
+
+def nakamura_model(per_side: int = 2) -> PlanarLineSystem:
+    """Return the lines of the model of the floating breakwater, four chains by default."""
+    reach, _, length, axial, weight = NAKAMURA_CHAIN
+    chain = LineType("chain", weight, axial)
     lines = tuple(
         Line(
             name,
-            (sign * (0.19 + 1.925), 0.0, -0.38),
+            (sign * (0.19 + reach), 0.0, -0.38),
             (sign * 0.19, 0.0, -0.113),
-            (Segment(chain, 1.975),),
-            count=2,
+            (Segment(chain, length),),
+            count=per_side,
         )
         for name, sign in (("offshore", -1.0), ("shore", 1.0))
     )
@@ -32,11 +37,11 @@ def _nakamura() -> PlanarLineSystem:
 
 
 def _stiffness(row: int, column: int) -> float:
-    return float(_nakamura().stiffness([0.0, 0.0, 0.0], about=(0.0, -0.027))[row, column])
+    return float(nakamura_model().stiffness([0.0, 0.0, 0.0], about=(0.0, -0.027))[row, column])
 
 
 def _offset(offset: float) -> float:
-    return float(solve_catenary(1.925 + offset, 0.267, 1.975, 2.14e4, 1.122).horizontal_tension)
+    return float(solve_catenary(NAKAMURA_CHAIN[0] + offset, *NAKAMURA_CHAIN[1:]).horizontal_tension)
 
 
 def _deck(distance: float, depth: float, length: float, at_anchor: bool) -> float:
@@ -136,7 +141,7 @@ CASES: tuple[ValidationCase, ...] = (
     ValidationCase("mooring: Nakamura chain, T_H at +2 cm [N]", _NAKAMURA, lambda: _offset(0.02), 5.02, 1e-3,
                    note="printed digits"),
     ValidationCase("mooring: Nakamura chain by Shoji's formula [N]", _NAKAMURA,
-                   lambda: solve_shoji(1.925, 0.267, 1.975, 2.14e4, 1.122).horizontal_tension, 1.796, 3e-4,
+                   lambda: solve_shoji(*NAKAMURA_CHAIN).horizontal_tension, 1.796, 3e-4,
                    note="equal to the exact line while part of it rests on the bed"),
     ValidationCase("mooring: Nakamura sway stiffness of four chains [N/m]", _NAKAMURA, lambda: _stiffness(0, 0), 298.3,
                    1e-3, note="weight of the chain to four digits"),

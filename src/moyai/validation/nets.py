@@ -21,7 +21,7 @@ _NU = 1.14e-6
 
 
 def _ahead(name: str, solidity: float, reynolds: float = 500.0) -> float:
-    """Drag of a panel square to the flow; the Reynolds number is that of the law."""
+    """Drag of a panel perpendicular to the flow; the Reynolds number is that of the law."""
     net, law = Net.from_solidity(1e-3, solidity), net_law(name)
     speed = reynolds * _NU / 1e-3
     speed *= reynolds / float(law.reynolds(speed, net, _NU))
@@ -196,7 +196,7 @@ CASES: tuple[ValidationCase, ...] = (
         partial(_planted, False),
         1.4,
         0.05,
-        note="four records with noise; the third harmonic lies in the stop band",
+        note="four records with noise; the third harmonic is in the stop band",
     ),
     ValidationCase(
         "nets: C_M of a net towed against waves, by a gauge on the carriage",

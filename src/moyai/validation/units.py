@@ -103,7 +103,7 @@ def spring_order() -> float:
 
 
 def hinge_moment() -> float:
-    """Return the moment about the axis of a hinge over the largest moment that it bears."""
+    """Return the moment about the axis of a hinge over the largest moment that it carries."""
     load = response((Connector("h", "hinge", ((0, 1),), 0.0, 3.0, (1.0, 0.0, 0.0)),))[1].load
     return float(np.abs(load[..., 0, 3]).max() / np.abs(load[..., 0, 4:]).max())
 
@@ -321,7 +321,7 @@ _CASES: tuple[ValidationCase, ...] = (
         0.01,
     ),
     ValidationCase(
-        "units: moment about the axis of a hinge over what it bears", "zero", hinge_moment, 0.0, 1e-9, False
+        "units: moment about the axis of a hinge over its strength", "zero", hinge_moment, 0.0, 1e-9, False
     ),
     ValidationCase(
         "units: energy of the waves, two hinged boxes, headings 0 to 80 degrees", "identity", energy_of_headings, 0.0,

@@ -152,7 +152,7 @@ def test_an_app_that_starts_later_lists_the_jobs(queue: Any, tmp_path: Path) -> 
         first, second, third = (later[job.key] for job in (done, running, waiting))
         assert (first.state, first.words, first.order) == ("done", "all identities hold; holds", done.order)
         assert second.state == third.state == "lost"
-        assert "the app ended before this job did" in second.words and "goes on from the cases" in second.words
+        assert "the app ended before this job did" in second.words and "continues from the cases" in second.words
         assert "before this job began" in third.words
         assert second.order == running.order and third.order == waiting.order
         until(later.again(third.key), "done")

@@ -120,7 +120,7 @@ def test_motions_of_regular_waves_carry_the_band_of_damping():
     shown, judged = governing(found.roll())
     assert shown.value == 0.10 and shown.band.high == pytest.approx(0.11)
     assert judged.value == 0.09 and judged.band.high == pytest.approx(0.135) and not judged.shown
-    # the mean offset does not hang on damping
+    # the mean offset is not attached to damping
     offset = governing(found.offset())[0]
     assert offset.value == pytest.approx(1.2) and offset.band.high == pytest.approx(1.22)
     assert offset.band.low == pytest.approx(1.16)

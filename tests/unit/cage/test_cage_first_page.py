@@ -50,7 +50,7 @@ def test_regular_waves_have_no_chance_and_short_records_say_so():
     series = np.sin(2.0 * np.pi * run["time"].values / 6.0)
     assert band_in_sea(None, "offset", run, 1.0, series) is None
     run, series = run_of(regular=False, duration=30.0)
-    assert chance(run, 1.0, series) == (1.0, 1.0, "one seed, too short to tell the scatter of its maximum")
+    assert chance(run, 1.0, series) == (1.0, 1.0, "one seed, too short to show the scatter of its maximum")
 
 
 @pytest.mark.slow  # a cage in waves
@@ -58,7 +58,7 @@ def test_a_law_out_of_its_range_is_reported_once():
     result = kept_run(template("rigid_cage"))
     said = [notice for notice in result.notices if notice.severity == "warning"]
     assert [notice.code for notice in said] == ["net-law-choice"]
-    assert "the power goes on up to the cap" in said[0].message
+    assert "the power law is extrapolated up to the cap" in said[0].message
 
 
 def test_a_coarser_mesh_widens_the_band_both_ways():

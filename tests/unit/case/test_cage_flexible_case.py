@@ -190,7 +190,7 @@ def test_a_case_runs_to_its_report(tmp_path):
 
 
 @pytest.mark.slow
-def test_sensitivity_tells_what_peaks_are_worth():
+def test_sensitivity_gives_the_uncertainty_of_peaks():
     found = run(build(case(("analyses: [statics, time]", "analyses: [sensitivity]"), ("periods: 2", "periods: 1"))))
     table = found.tree["SWL/sensitivity/regular"].ds
     values = table["value"].values

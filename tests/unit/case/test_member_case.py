@@ -39,8 +39,8 @@ SLIPS = {
         (CIRCLE, "{shape: rounded_rectangle, width: 1 m, height: 1 m, corner_radius: 0.6 m}"),
         "corner_radius is 0.6 m; allowed: less than 0.5 m",
     ),
-    "bow tie": ((CIRCLE, "{shape: polygon, points: [[0, 0], [1, 1], [1, 0], [0, 1.2]]}"), "meets itself"),
-    "law of circles": ((CIRCLE, "{shape: square, width: 1 m}"), "speaks of circles"),
+    "bow tie": ((CIRCLE, "{shape: polygon, points: [[0, 0], [1, 1], [1, 0], [0, 1.2]]}"), "intersects itself"),
+    "law of circles": ((CIRCLE, "{shape: square, width: 1 m}"), "is for circles"),
     "above the surface": (("start: {y: -10 m, z: -5 m}", "start: {y: -10 m, z: 0.5 m}"), None),
     "both ends above": (
         ("start: {y: -10 m, z: -5 m}              # ends of the axis; x and y are 0 when absent, z from datum\n"
@@ -54,7 +54,7 @@ SLIPS = {
     "purpose": (("purpose: extreme", "purpose: design"), "design"),
     "table falls": (("# table: [[2, 0.8], [3, 1.0], [4, 0.6]]", "table: [[3, 0.8], [2, 1.0]]"), "does not rise"),
     "breaking wave": (("heights: [0.2 m, 0.5 m, 1.0 m]", "heights: [0.2 m, 20 m]"), "break"),
-    "two heights": (("heights: [0.2 m, 0.5 m, 1.0 m]", "heights: [0.2 m, 0.2 m]"), "stands twice"),
+    "two heights": (("heights: [0.2 m, 0.5 m, 1.0 m]", "heights: [0.2 m, 0.2 m]"), "is given twice"),
     "height and heights": (("heights: [0.2 m", "height: 1 m\n    heights: [0.2 m"), "exclude each other"),
     "no waves": (("analyses: [sweep, forces, surface]", "analyses: [forces, statics]"), "statics"),
     "drag law": (("{law: dnv_c205, roughness: 1 mm}", "{law: dnv}"), "dnv"),
@@ -62,7 +62,7 @@ SLIPS = {
     "table out of order": (("{law: dnv_c205, roughness: 1 mm}", "{table: [[2, 1], [1, 2]]}"), "does not rise"),
     "row of four": (("{law: dnv_c205, roughness: 1 mm}", "{table: [[1, 1], [2, 2, 2, 2]]}"), "drag.table"),
     "negative drag": (("{law: dnv_c205, roughness: 1 mm}", "-1"), "out of range"),
-    "motion without period": (("# motion: {x: 0.1 m, phase_x_deg: 90}", "motion: {x: 0.1 m}"), "no period of its own"),
+    "motion without period": (("# motion: {x: 0.1 m, phase_x_deg: 90}", "motion: {x: 0.1 m}"), "no single period"),
     "water level": ((SETTINGS, "settings: {water_levels: [HWL]}"), "no water level 'HWL'"),
     "strips": ((SETTINGS, "settings: {strips: 0}"), "strips"),
     "roughness of a member's size": (("roughness: 1 mm", "roughness: 1 m"), "roughness: 1 m is no roughness"),
@@ -108,7 +108,7 @@ def test_power_law_currents_stand_at_every_water_level():
 def test_current_with_a_counted_circulation_is_warned_about():
     changes = (("purpose: extreme", "purpose: response"), (CURRENT, "current: {speed: 1, heading_deg: 0}"))
     found = case(*changes).warnings
-    assert any("no measurement tells how a current" in str(fault) for fault in found)
+    assert any("no measurement shows how a current" in str(fault) for fault in found)
 
 
 @pytest.mark.parametrize("file", sorted((ROOT / "examples/member").glob("*.yaml")), ids=lambda file: file.stem)

@@ -69,7 +69,7 @@ WARNINGS = {
     "anchors out of reach": ("cage", "anchor_distance: 150 m", "anchor_distance: 160 m", "structure.mooring.anchor_distance", "farther than their lines of 157.5 m reach: 166.2 m from frame to anchor at SWL, a stretch of 5.53 % before any load; allowed: usually a way of at most 160.7 m"),
     "waves along a member": ("member", "heading_deg: 0\n    duration", "heading_deg: 90\n    duration", "waves[1].heading_deg", "90 degrees from the normal of the member"),
     "current along a member": ("member", "\nstructure:", "\ncurrent: {speed: 0.5 m/s, heading_deg: -88}\nstructure:", "current.heading_deg", "88 degrees from the normal of the member"),
-    "lost sign of a height": ("member", "end: {y: 10 m, z: -5 m}", "end: {y: 10 m, z: 5 m}", "structure.end.z", "one end stands 5 m above still water and the other 5 m below it, in a member that rises by 26.6 degrees: 50 % of it is dry"),
+    "lost sign of a height": ("member", "end: {y: 10 m, z: -5 m}", "end: {y: 10 m, z: 5 m}", "structure.end.z", "one end is 5 m above still water and the other 5 m below it, in a member inclined by 26.6 degrees: 50 % of it is dry"),
     "drag of a cage without unit": ("cage", END, "\ncriteria: {greatest_drag: 50}\nanalyses:", "criteria.greatest_drag", "is 7.69e-05 (criteria.greatest_drag 50"),
     "moment in N m": ("member", END, "\ncriteria: {greatest_bending_moment: 250}\nanalyses:", "criteria.greatest_bending_moment", "wave moment"),
     "line of transmission before the row": ("units", "start: [30 m, -30 m], end: [30 m, 30 m]", "start: [-30 m, -30 m], end: [-30 m, 30 m]", "map.line", "'operation' meets it 30 to 30 m before the first unit"),

@@ -97,8 +97,8 @@ def test_columns_count_characters_not_bytes(scanner):
 
 def test_all_duplicate_keys_are_reported(scanner):
     assert faults_of("a: 1\nb:\n  c: 1\n  c: 2\na: 3\n") == [
-        "case.yaml:4:3: b.c: the key 'c' stands twice; it was given in line 3: remove one",
-        "case.yaml:5:1: a: the key 'a' stands twice; it was given in line 1: remove one",
+        "case.yaml:4:3: b.c: the key 'c' is given twice; it was given in line 3: remove one",
+        "case.yaml:5:1: a: the key 'a' is given twice; it was given in line 1: remove one",
     ]
 
 
@@ -120,21 +120,21 @@ def test_anchors_aliases_and_merges(scanner):
     [
         ("a:\n\tb: 1\n", "2:1", "a tab cannot indent in YAML; indent with spaces"),
         ("a: 1\n\tb: 2\n", "2:1", "a tab cannot indent in YAML"),
-        ("a: b: c\n", "1:5", "a ':' stands where no key can begin"),
-        ("a: 1\n b: 2\n", "2:3", "a ':' stands where no key can begin"),
+        ("a: b: c\n", "1:5", "a ':' is where no key can begin"),
+        ("a: 1\n b: 2\n", "2:3", "a ':' is where no key can begin"),
         ("a: [1, 2\nb: 3\n", "2:2", "the '[' opened in line 1 is not closed"),
         ("a: {b: 1\nc: 2\n", "2:2", "the '{' opened in line 1 is not closed"),
         ("a: 1\nb: 'abc\n", "3:1", "the quotation mark opened in line 2 is not closed"),
         ("a: @x\n", "1:4", "a value may not begin with '@'; put quotes around it"),
         ("a: *x\n", "1:4", "'*x' refers to an anchor that is not defined above"),
-        ("a: &x [*x]\n", "1:8", "'*x' stands inside the block that it refers to"),
+        ("a: &x [*x]\n", "1:8", "'*x' is inside the block that it refers to"),
         ("a: 1\n---\nb: 2\n", "2:1", "a second document begins here"),
         ("? [a]\n: b\n", "1:3", "a key must be plain text"),
         ("a: !!python/object:os.system x\n", "1:4", "is not allowed; case files hold plain data"),
         ("a: !include other.yaml\n", "1:4", "is not allowed; case files hold plain data"),
         ("a: " + "[" * 70, "1:64", "nested more than 60 deep"),
         ("<<: 5\n", "1:5", "'<<' merges a block of keys"),
-        ("ok: 1\nx: \x07\n", "2:4", "the character U+0007 may not stand in a YAML file"),
+        ("ok: 1\nx: \x07\n", "2:4", "the character U+0007 is not allowed in a YAML file"),
         ("a: \ud800\n", "1:4", "U+D800"),
         ("'': 1\n", "1:1", "a key is missing before ':'"),
     ],
@@ -231,6 +231,6 @@ def test_json_is_read_as_it_was_written(tree):
     try:
         found = parse_yaml(text).data
     except CaseError as error:
-        assert "may not stand" in str(error)
+        assert "is not allowed" in str(error)
         return
     assert found == tree

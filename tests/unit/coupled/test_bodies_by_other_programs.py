@@ -230,7 +230,7 @@ def test_a_body_that_snaps_a_line_meets_the_reflected_waves(ratio) -> None:
 def test_rows_off_the_pace_of_the_wave_are_told() -> None:
     _, found = thrown_against_a_line(1.0, 50, 12.5)
     notice = next(item for item in found.notices if item.code == "wave-front")
-    assert "0.78 of the pace" in notice.message and "output_step" in notice.remedy
+    assert "0.78 of the pace" in notice.message and "rows that are a multiple" in notice.remedy
     # a long row finds its pace
     assert steps_at_the_pace(1.0, 3, 1.0 / 210.0) == (3, ())
     count, reported = steps_at_the_pace(1.0, 3, 1.0 / 211.6)

@@ -324,7 +324,7 @@ def test_points_and_bodies_that_do_not_fit_are_named() -> None:
             "'hock', which the network does not have",
         ),
         ({"bob": RigidBody("bob", 2.0, (0.02,) * 3, points={"fixed 0": (0, 0, 0)})}, "is not a driven point"),
-        ({}, "no body carries it and no motion is given"),
+        ({}, "belongs to no body, and no motion is given"),
     ):
         with pytest.raises(InputError) as caught:
             simulate_coupled(network, bodies, duration=1.0, output_step=0.1)

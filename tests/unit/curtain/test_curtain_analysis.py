@@ -243,7 +243,7 @@ def test_notices_of_snaps_name_their_sea_and_endless_seas_are_refused(tmp_path):
     text = SMALL.replace("waves: {kind: regular, height: 0.6 m, period: 4 s, heading_deg: 0}", sea)
     text = text.replace("[statics, impact, waves, anchor_loads, limits]", "[waves]")
     messages = [notice.message for notice in run(problem_of(tmp_path, text.replace("DURATION", "5 min"))).notices]
-    rises = [message for message in messages if "snaps rise" in message]
+    rises = [message for message in messages if "snaps have a rise time" in message]
     assert rises and all(message.startswith("winter: ") for message in rises)
     with pytest.raises(InputError, match="million samples"):
         run(problem_of(tmp_path, text.replace("DURATION", "1000 h")))

@@ -181,7 +181,7 @@ def test_anchored_span_in_a_current_ends_at_its_drag() -> None:
 
 
 @pytest.mark.slow
-def test_sensitivity_names_what_the_peak_is_worth() -> None:
+def test_sensitivity_gives_the_uncertainty_of_the_peak() -> None:
     span, mesh = CurtainSpan(**BASE), Mesh(12, 6)  # type: ignore[arg-type]
     rise = peak_by_energy(Impact(0.7, 0.8, 0.15, 75.0, 75.0, 0.3, FLUME)).time
     given = {
@@ -189,14 +189,14 @@ def test_sensitivity_names_what_the_peak_is_worth() -> None:
         "profile": "sag",
     }  # fmt: skip
     run = run_span(span, mesh, **given)  # type: ignore[arg-type]
-    worth = span_uncertainty(run, **given)
-    assert set(worth.of) == {"both", "upper cable", "lower cable"}
-    for name, one in worth.of.items():
+    uncertainty = span_uncertainty(run, **given)
+    assert set(uncertainty.of) == {"both", "upper cable", "lower cable"}
+    for name, one in uncertainty.of.items():
         assert one.peak == run.peak(name)[0]
         assert one.half_step == pytest.approx(one.peak, rel=0.02)
         assert one.half_mesh == pytest.approx(one.peak, rel=0.06)
         assert one.double_viscosity < one.peak
-    assert bool(worth.notices("here", 1e-4)) and not worth.notices("here", 0.5)
+    assert bool(uncertainty.notices("here", 1e-4)) and not uncertainty.notices("here", 0.5)
 
 
 def test_sensitivity_tells_of_a_cable_that_the_sum_hides() -> None:
@@ -348,7 +348,7 @@ def test_runs_tell_what_they_did_not_reach() -> None:
     assert "shorter than the rise" in run_notices(short, "here", rise, False)[0].message
     assert not run_notices(whole, "here", rise, False)
     # the same short run where model A is quicker: the tension is highest at its end
-    assert "later half" in run_notices(short, "here", 0.1 * rise, False)[0].message
+    assert "second half" in run_notices(short, "here", 0.1 * rise, False)[0].message
 
 
 @pytest.mark.slow

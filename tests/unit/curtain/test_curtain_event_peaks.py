@@ -118,7 +118,7 @@ def test_what_grows_with_the_cells_is_a_bound_and_warned_of():
     assert {name: event for name, (event, _) in found.items()} == {"upper cable": "storm", "skirt": "storm"}
     (notice,) = mesh_notices(found)
     assert (
-        "upper cable in 'storm' 29 kN on the coarser mesh, 20 kN on the finer, and the larger counts" in notice.message
+        "upper cable in 'storm' 29 kN on the coarser mesh, 20 kN on the finer, and the larger is used" in notice.message
     )
     assert "skirt" not in notice.message
     (notice,) = mesh_notices(governing_peaks(storm((30e3, 31e3, 28e3), skirt=(10e3, 20e3))))

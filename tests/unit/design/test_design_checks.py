@@ -85,7 +85,7 @@ def test_an_unknown_breaking_load_does_not_pass():
         (lambda: check_line(load(), design_code("API RP 2SK", analysis="dynamic"), corrosion=0.1), "diameter"),
         (
             lambda: check_line(load(), design_code("API RP 2SK", analysis="dynamic"), corrosion=0.1, diameter=0.05),
-            "eats the line",
+            "more than the diameter",
         ),
         (lambda: Sinker(-1.0, 0.5, 1.2), "above 0"),
         (lambda: DragAnchor(1.0, 0.0, 1.2), "above 0"),

@@ -133,7 +133,7 @@ def test_a_failure_keeps_the_nearest_state(tmp_path):
     network = builder.build()
     with pytest.raises(ConvergenceError, match="nearest state in") as reported:
         solve_equilibrium(network, flow=Flow((0.5, 0.2, 0.0)), most_steps=40, state_file=tmp_path / "rest.npz")
-    assert "along x and y: the current carries them away" in str(reported.value)
+    assert "along x and y: the current moves them away" in str(reported.value)
     assert read_state(tmp_path / "rest.npz", network).position.shape == (5, 3)
 
 

@@ -128,7 +128,7 @@ def test_refined_network_is_the_same_network():
         refined(network, 0)
 
 
-def test_sensitivity_tells_what_a_peak_is_worth():
+def test_sensitivity_gives_the_uncertainty_of_a_peak():
     network = rope(segments=8, span=(39.5, 0.0, 0.0), stiffness=1e6, mass=3.0, viscosity=2e3, water=NO_GRAVITY)
     motion = {"end": Motion.harmonic((1.0, 0.0, 0.0), 3.0, duration=8.0, ramp=1.5)}
     found = peak_sensitivity(network, motion, bar=7, duration=6.0, output_step=0.02)

@@ -1,4 +1,4 @@
-"""The same sheets on a finer mesh: what stays the same, what is held, and what a peak beside cloth is worth."""
+"""The same sheets on a finer mesh: what stays the same, what is held, and how uncertain a peak next to cloth is."""
 
 from __future__ import annotations
 
@@ -95,18 +95,18 @@ def test_rest_of_finer_sheets_converges() -> None:
     assert abs(toes[2] - toes[1]) < 0.6 * abs(toes[1] - toes[0]) < 0.1
 
 
-def test_what_a_peak_beside_cloth_is_worth() -> None:
+def test_the_uncertainty_of_a_peak_next_to_cloth() -> None:
     network = skirt(first_row="driven")
     drive = Motion.harmonic((0.0, 0.0, 0.3), 2.0, duration=4.0, ramp=1.0)
     begin = solve_equilibrium(network).state
     stay = int(network.strand("stay").bars[-1])
-    worth = peak_sensitivity(
+    found = peak_sensitivity(
         network, {"skirt": drive}, bar=stay, start=begin, duration=3.0, output_step=0.05,
     )  # fmt: skip
-    assert worth.peak > 0.0 and worth.double_mesh > 0.0
-    assert worth.double_mesh != worth.peak and worth.double_viscosity != worth.peak
+    assert found.peak > 0.0 and found.double_mesh > 0.0
+    assert found.double_mesh != found.peak and found.double_viscosity != found.peak
     # six cells do not hold this peak, and the run says so
-    assert [notice.code for notice in worth.notices()] == ["peak-not-converged"]
+    assert [notice.code for notice in found.notices()] == ["peak-not-converged"]
 
 
 def test_viscosity_of_cloth_counts() -> None:

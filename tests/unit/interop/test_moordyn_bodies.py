@@ -142,4 +142,4 @@ def test_a_rod_of_no_segments_stands_at_its_end_a(tmp_path):
     plain = deck_of(tmp_path)
     clamp = deck_of(tmp_path, DECK.replace("3   3   -9  3   3   -9  0 ", "3   3   -9  4   3   -8  0 ", 1))
     assert clamp.rods == plain.rods
-    assert any("rod 4 has 0 segments: it stands at its end A" in note for note in clamp.notes)
+    assert any("rod 4 has 0 segments: it is at its end A" in note for note in clamp.notes)

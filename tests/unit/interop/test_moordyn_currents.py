@@ -111,7 +111,7 @@ def test_slips_of_a_grid(tmp_path):
     for old, new, words in (
         ("2 1 2 3", "2 1 2", "four numbers of points"),
         ("-20 0\n", "-20\n", "expected 2 rising"),
-        ("100 0 -20 20.0", "90 0 -20 20.0", "stands on no point"),
+        ("100 0 -20 20.0", "90 0 -20 20.0", "is at no point"),
         ("\n100 0 -20 20.0 0.0 0 0", "", "points of the grid have no velocity"),
     ):
         assert old in grid(), old

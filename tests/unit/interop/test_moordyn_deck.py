@@ -235,7 +235,7 @@ def test_flat_grid_of_depths(tmp_path):
     assert sloped.seafloor_depth is None and sloped.depth == 45.0
     assert sloped.bed_under((50.0, 5.0)) == pytest.approx(-45.0 + 0.75 * 0.75, abs=1e-12)
     written(tmp_path, grid.format(-44.0).replace("100 -10 -45.0\n100", "-100 10 -45.0\n100"), "grid.txt")
-    assert "stands twice in a grid of 2 by 2" in str(faults_of(tmp_path, text)[0])
+    assert "is given twice in a grid of 2 by 2" in str(faults_of(tmp_path, text)[0])
 
 
 def test_current_profile(tmp_path):
@@ -265,7 +265,7 @@ def test_output_in_si_units(tmp_path):
     [
         ("Time A\n(s) (N)\n0 1\n1\n", ":4: 1 columns"),
         ("Time A\n(s) (N)\n0 1\n1 x\n", ":4: 2 columns, 1 of them"),
-        ("Time A A\n(s) (N) (N)\n0 1 2\n", "stands twice"),
+        ("Time A A\n(s) (N) (N)\n0 1 2\n", "is given twice"),
         ("Time A\n(s) (stone)\n0 1\n", "unit 'stone'"),
         ("0 1\n1 2\n", "starts with Time"),
         ("Time A\n(s) (N)\n", "no rows"),

@@ -159,7 +159,7 @@ def test_all_that_a_deck_cannot_say_is_named_at_once():
         to_deck(builder.build())
     text = str(caught.value)
     assert all(
-        word in text for word in ("float: partial immersion", "beam: a bar that bears compression", "bed at -29 m")
+        word in text for word in ("float: partial immersion", "beam: a bar that carries compression", "bed at -29 m")
     )
 
 

@@ -65,10 +65,10 @@ def test_it_is_read_written_and_run(tmp_path):
 @pytest.mark.parametrize(
     ("old", "new", "words"),
     [
-        ("1 3 2 4 0", "1 2 1 4 0", "line 1 does not hang on 2"),
+        ("1 3 2 4 0", "1 2 1 4 0", "line 1 is not attached to 2"),
         ("1 3 2 4 0", "1 3 1,2 4 0", "part together"),
         ("1 3 2 4 0", "1 3 2 -4 0", "time is -4"),
-        ("1 3 2 4 0", "1 3 9 4 0", "line 9 does not hang"),
+        ("1 3 2 4 0", "1 3 9 4 0", "line 9 is not attached"),
     ],
 )
 def test_slips_are_told(tmp_path, old, new, words):

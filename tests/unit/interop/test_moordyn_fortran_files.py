@@ -151,5 +151,5 @@ def test_a_steady_current_that_turns_is_run_through_time(tmp_path):
 
     velocity, _ = build(case).current_field.at(3.0, np.array([[0.0, 5.0], [0.0, 7.0], [-30.0, -5.0]]))
     assert np.allclose(velocity, [[0.3, 0.65], [0.05, 0.15], [0.0, 0.0]])
-    with pytest.raises(InputError, match="turns over the height"):
+    with pytest.raises(InputError, match="varies with depth"):
         case_text(deck)

@@ -114,7 +114,7 @@ def test_the_unit_stands_on_its_lines(tmp_path: Path) -> None:
     assert ran.exit_code == 0, ran.output
     notes = json.loads(ran.stdout)["notes"]
     assert any("line 'shoreward' is left out: mass and diameter" in note for note in notes)
-    assert any("alike lines stand evenly" in note for note in notes)
+    assert any("equal lines are evenly spaced" in note for note in notes)
     model = yaml.safe_load((tmp_path / "results.yml").read_text(encoding="utf-8"))
     (vessel,), (kind,) = model["Vessels"], model["LineTypes"]
     assert [line["Name"] for line in model["Lines"]] == ["seaward 1", "seaward 2"]

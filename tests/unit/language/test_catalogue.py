@@ -29,7 +29,7 @@ def test_babel_reads_every_file_as_the_package_does(path: Path) -> None:
     text = path.read_text(encoding="utf-8")
     own = [pair for pair in entries(text) if pair[0]]
     assert dict(own) == found
-    assert len(own) == len(found), "a message stands twice"
+    assert len(own) == len(found), "a message is given twice"
 
 
 def test_no_message_stands_in_two_files() -> None:

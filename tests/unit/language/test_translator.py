@@ -14,7 +14,7 @@ MESSAGES = {
     "{0} ({1})": "{0}（{1}）", "{0} of {1}": "{1}の{0}", "largest {0}": "最大{0}", "tension": "張力",
     "largest tension": "最大張力", "anchor line": "係留索", "line {0}": "索 {0}", "storm": "暴風時",
     "{0} realisations": "{0} 実現", "limit {0}, judged at {1}": "限界値 {0}、判定値 {1}",
-    "Half of the snaps rise for more than {0} s": "スナップの半数は立上り時間が {0} s を超える",
+    "Half of the snaps have a rise time of more than {0} s": "スナップの半数は立上り時間が {0} s を超える",
 }  # fmt: skip
 
 
@@ -31,7 +31,10 @@ def translator() -> Translator:
         ("storm: largest tension of anchor line (5 realisations)", "暴風時：係留索の最大張力（5 実現）"),
         ("tension of line seaward", "索 seaward の張力"),
         ("Limit 3.00 kN, judged at 2.5 kN.", "限界値 3.00 kN、判定値 2.5 kN。"),
-        ("storm: Half of the snaps rise for more than 0.6 s", "暴風時：スナップの半数は立上り時間が 0.6 s を超える"),
+        (
+            "storm: Half of the snaps have a rise time of more than 0.6 s",
+            "暴風時：スナップの半数は立上り時間が 0.6 s を超える",
+        ),
         ("storm; tension. Storm.", "暴風時；張力。暴風時。"),
         ("3.4 kN", "3.4 kN"),
         ("", ""),

@@ -158,7 +158,7 @@ def test_rounding_of_corners_leads_from_the_square_to_the_circle():
 
 BAD = {
     "two corners": ([(0, 0), (1, 0)], None, "different corners"),
-    "bow tie": ([(0, 0), (1, 1), (1, 0), (0, 1.2)], None, "meets itself"),
+    "bow tie": ([(0, 0), (1, 1), (1, 0), (0, 1.2)], None, "intersects itself"),
     "no area": ([(0, 0), (1, 0), (2, 0)], None, "no area"),
     "not a number": ([(0, 0), (1, math.nan), (1, 1)], None, "not a finite number"),
     "twice": ([(0, 0), (0, 0), (1, 0), (1, 1)], None, "coincide"),

@@ -187,9 +187,9 @@ def test_tables_say_where_they_come_from():
 @pytest.mark.parametrize(
     ("rule", "section", "words"),
     [
-        (CoefficientRule("dnv_c205"), sections.rectangle(1, 2), "speaks of circles"),
+        (CoefficientRule("dnv_c205"), sections.rectangle(1, 2), "is for circles"),
         (CoefficientRule("steady"), sections.polygon([(0, 0), (1, 0), (0, 1)]), "no steady drag of a polygon"),
-        (CoefficientRule((1.0, 1.0), "api"), sections.rectangle(1, 1), "speaks of circles"),
+        (CoefficientRule((1.0, 1.0), "api"), sections.rectangle(1, 1), "is for circles"),
     ],
 )
 def test_laws_refuse_sections_they_do_not_know(rule, section, words):

@@ -92,7 +92,7 @@ def test_a_run_with_bodies_goes_on_from_where_it_was_stopped(stopped):
         assert apart[late].max() < 2e-3 * scale
     peak = float(one["end_tension"].max())
     assert np.abs(one["end_tension"].values - two["end_tension"].values).max() < 0.02 * peak
-    assert any("goes on from an earlier one" in notice.message for notice in rest.notices)
+    assert any("continues an earlier one" in notice.message for notice in rest.notices)
 
 
 @pytest.mark.slow
@@ -142,7 +142,7 @@ def test_a_body_that_turns_over_is_told(tmp_path, monkeypatch):
 
 
 @pytest.mark.slow
-def test_what_a_peak_is_worth_is_told_with_bodies(tmp_path):
+def test_the_uncertainty_of_a_peak_is_reported_with_bodies(tmp_path):
     text = CASE.format(
         analyses="[dynamic]", more=", sensitivity: true, skip: 0.5 s, peak_goal: 0.3, ramp: 0.2 s", bars=4
     )
@@ -162,7 +162,7 @@ def test_what_a_peak_is_worth_is_told_with_bodies(tmp_path):
 
 
 @pytest.mark.parametrize("bodies", [pytest.param(True, marks=pytest.mark.slow), False])
-def test_an_interrupt_while_the_worth_is_found_keeps_the_run(tmp_path, bodies):
+def test_an_interrupt_while_the_uncertainty_is_found_keeps_the_run(tmp_path, bodies):
     text = CASE.format(analyses="[dynamic]", more=", sensitivity: true", bars=4)
     text = text.replace("duration: 5 s", "duration: 1.5 s")
     if not bodies:
@@ -175,7 +175,7 @@ def test_an_interrupt_while_the_worth_is_found_keeps_the_run(tmp_path, bodies):
     complete = []
 
     def stop(what, done, total):
-        # whatever is told after the run itself belongs to its worth
+        # what is reported after the run itself belongs to its numerical uncertainty
         if complete:
             raise KeyboardInterrupt
         if what == "waves" and done == total == 1.0:

@@ -122,9 +122,9 @@ def faults_of(path):
 @pytest.mark.parametrize(
     ("changes", "words"),
     [
-        ({"draught": "0.2 m"}, "drowns a body of 0.132 m"),
+        ({"draught": "0.2 m"}, "submerges a body of 0.132 m"),
         ({"draught": "-3 cm"}, "greater than 0"),
-        ({"centre": "[1 cm, 0, 0]"}, "its centre of gravity stands over its middle"),
+        ({"centre": "[1 cm, 0, 0]"}, "its centre of gravity is above its middle"),
         ({"loads": "added_mass: [1, 1, 1]\n      " + LOADS}, "coefficients_file"),
         ({"loads": ABSENT.format("capytaine")}, "there is no file 'none.nc'"),
         ({"loads": ABSENT.format("hydrostar")}, "hydrostar"),

@@ -253,7 +253,7 @@ settings: {{duration: 5 s}}
     result = run(problem_of(text, tmp_path))
     assert result.status == "not_converged"
     assert "at rest in still water" in result.message
-    assert "settings.start: as_built" in result.message
+    assert "the start 'as_built'" in result.message
 
 
 def test_runs_follow_seas_periods_and_currents(tmp_path):
@@ -453,7 +453,7 @@ def test_a_line_starts_on_a_bed_that_rises_between_its_ends(tmp_path):
         "structure:\n", "structure:\n  " + BED + "grid: {file: bed.txt}}\n"
     )
     network = assemble(problem_of(text, tmp_path), 0.0).network
-    # the anchor stands on the corner of the grid, from which the bed is rounded
+    # the anchor is on the corner of the grid, from which the bed is rounded
     inner = network.nodes.position[1:]
     assert (inner[:, 2] >= network.bed.level_at(inner) - 1e-9).all()
     rest = solve_equilibrium(network)
@@ -465,11 +465,11 @@ def test_a_bed_that_varies_is_checked(tmp_path):
     text = line_case().replace("structure:\n", "structure:\n  " + BED + "grid: {file: bed.txt}}\n")
     (tmp_path / "case.yaml").write_text(text)
     said = "\n".join(item.message for item in load_case(tmp_path / "case.yaml").warnings)
-    assert "some of 'fairlead' among them, stand beyond the grid of the bed" in said
+    assert "some of 'fairlead' among them, are beyond the grid of the bed" in said
     assert "down to 34 m below still water" in said
     (tmp_path / "bed.txt").write_text("0 -5 10\n0 5 10\n20 -5 34\n20 5 34\n")
     with pytest.raises(CaseError, match="z = -12 m lies under the bed, which is 10"):
         problem_of(text, tmp_path)
     (tmp_path / "bed.txt").write_text("0 -5 10\n0 5 10\n20 -5 34\n")
-    with pytest.raises(CaseError, match="stands nowhere in a grid of 2 by 2 lines"):
+    with pytest.raises(CaseError, match="is given nowhere in a grid of 2 by 2 lines"):
         problem_of(text, tmp_path)

@@ -66,10 +66,10 @@ def test_six_segments_under_a_raft_are_judged_with_what_their_mesh_leaves_out() 
 
 @pytest.mark.slow
 def test_a_body_whose_mesh_was_not_checked_keeps_no_limit(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(dynamics, "worth_it", lambda *_: False)
+    monkeypatch.setattr(dynamics, "finer_is_useful", lambda *_: False)
     for check in ("auto", "off"):
         result = _result.__wrapped__(3, check, "30 kN")
         assert _number(result, "line_tension").bound == _number(result, "anchor_load").bound == "at least"
         assert result.verdict.outcome == "not judged"
-        assert "settings.sensitivity: true checks them" in result.verdict.message
+        assert "a sensitivity run checks them" in result.verdict.message
     assert _result.__wrapped__(3, "off", "5 kN").verdict.outcome == "does not hold"

@@ -363,7 +363,7 @@ def plated(*points, hull=BOX):
         (lambda: PlateLine([(0, 0)]), "shape"),
         (lambda: PlateLine([(0, 0), (math.nan, -1)]), "not a finite number"),
         (lambda: PlateLine([(0, 0), (0, -1)], [0.1, 0.2]), "2 bulges for 1 edges"),
-        (lambda: PlateLine([(0, 0), (2, 0), (1, 1), (1, -1)]), "meets itself"),
+        (lambda: PlateLine([(0, 0), (2, 0), (1, 1), (1, -1)]), "intersects itself"),
         (lambda: plated([(-3, -1), (3, -1)], [(0, 0), (0, -2)]), "cross"),
         (lambda: plated([(-3, 1), (3, 1)]), "outline 1"),
         (lambda: plated([(-1, 1), (1, 1)]), "outline 1"),

@@ -52,7 +52,7 @@ def test_immersed_part_against_fine_polygon(seed):
     try:
         section = hull.immersed(draught, heel)
     except InputError as error:
-        assert "holds water of its own" in str(error)
+        assert "encloses water" in str(error)
         return
     line = section.outlines[0].edges.polyline(1e-4)
     x, z = line.T
@@ -112,12 +112,12 @@ def test_clockwise_is_turned_round():
     ("points", "words"),
     [
         ([(0, 0), (1, 1), (1, 0), (0, 1)], "no area"),
-        ([(0, 0), (2, 0), (2, 2), (1, -1), (0, 2)], "meets itself"),
+        ([(0, 0), (2, 0), (2, 2), (1, -1), (0, 2)], "intersects itself"),
         ([(0, 0), (1, 0), (2, 0)], "no area"),
         ([(0, 0), (1, 0)], "corners"),
         ([(0, 0), (1, 0), (1, 0), (0, 1)], "coincide"),
         ([(0, 0), (np.nan, 0), (1, 1)], "finite"),
-        ([(0, 0), (2, 0), (2, 1), (2, 0.5), (0, 1)], "meets itself"),
+        ([(0, 0), (2, 0), (2, 1), (2, 0.5), (0, 1)], "intersects itself"),
     ],
 )
 def test_bad_outlines_get_a_clear_message(points, words):
@@ -136,7 +136,7 @@ def test_dry_and_tank_sections_are_refused():
     with pytest.raises(InputError, match="does not reach the water"):
         shapes.rectangle(2.0, 1.0).immersed(-0.5)
     tank = [(0, 0), (5, 0), (5, 3), (4, 3), (4, 1), (1, 1), (1, 3), (0, 3)]
-    with pytest.raises(InputError, match="water of its own"):
+    with pytest.raises(InputError, match="encloses water"):
         shapes.polygon(tank).immersed(2.0)
     with pytest.raises(InputError, match="draught"):
         shapes.rectangle(2.0, 1.0).immersed(float("nan"))

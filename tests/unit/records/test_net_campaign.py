@@ -138,7 +138,7 @@ def test_text_output(folder):
         ("water_depth: 45 cm\n", "", "'water_depth' is missing"),
         ("panel_z: -20 cm", "panel_z: -50 cm", "above the bed"),
         ("panel_area: 660 cm2", "panel_area: 660", "cm2 or m2"),
-        ("name: C-10", "name: A-10", "stands above already"),
+        ("name: C-10", "name: A-10", "is already given above"),
         ("kinematic_viscosity", "kinematic_viscosty", "did you mean"),
         ("columns: {lift: lift, velocity: velocity}", "columns: {lift: lift}", "velocity or of the elevation"),
     ],

@@ -134,7 +134,7 @@ def test_limits_and_faults():
         surface_elevation(STEP, record, Sensor("pressure", z=-13.0), WATER, lowest=0.05, highest=0.3)
     three = np.column_stack([record] * 3)
     spectra = cross_spectra(STEP, three, WelchOptions(segment=128.0))
-    with pytest.raises(InputError, match="cannot tell directions"):
+    with pytest.raises(InputError, match="cannot resolve directions"):
         directional_spectrum(spectra, (deep, deep, deep), WATER, lowest=0.1, highest=0.2)
     with pytest.raises(InputError, match="no triplet"):
         fourier_directions(spectra, (deep, deep, deep), WATER)

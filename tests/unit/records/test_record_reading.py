@@ -221,7 +221,7 @@ def test_more_faults(tmp_path):
     with pytest.raises(InputError, match="neither UTF-8 nor Shift-JIS"):
         (tmp_path / "c.csv").write_bytes(b"t,h\n0,\x85\x20\xff\x81\n")
         read_record(logger(tmp_path / "c.csv", [ColumnSource("h", "h", "m")]))
-    with pytest.raises(InputError, match="tells no format"):
+    with pytest.raises(InputError, match="is of no known format"):
         (tmp_path / "a.xyz").write_text("0")
         read_record(logger(tmp_path / "a.xyz", [ColumnSource("h", "h", "m")]))
     with pytest.raises(InputError, match="does not come after"):

@@ -169,7 +169,7 @@ def test_command_writes_result_and_page_and_says_generated(made, tmp_path) -> No
     [
         ("cable: steel, current: 0.200", "cable: rope, current: 0.200", "no cable 'rope'"),
         ("file: run1.csv", "file: run9.csv", "run9.csv"),
-        ("name: run2,", "name: run1,", "stands above already"),
+        ("name: run2,", "name: run1,", "is already given above"),
         ("length: 0.8 m, unloaded", "length: 0.6 m, unloaded", "shorter than the span"),
         ("origin: generated\n", "", "origin"),
         ("lower: lower, cable: steel, current: 0.200", "lower: low, cable: steel, current: 0.200", "low"),

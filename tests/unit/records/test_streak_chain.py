@@ -186,7 +186,7 @@ def test_targets_on_a_line_and_dark_pictures_are_told(folder):
     dark = np.random.default_rng(1).poisson(12.0, SHAPE).astype(np.uint8)
     imageio.imwrite(folder / "dark.png", dark)
     campaign, _ = load_streaks(changed(folder, "dark", ("run_*.png", "dark.png")))
-    with pytest.raises(InputError, match=r"dark\.png: 0 streaks stand out of the noise"):
+    with pytest.raises(InputError, match=r"dark\.png: 0 streaks exceed the noise"):
         measure_campaign(campaign)
 
 
@@ -250,11 +250,11 @@ def test_a_wrong_target_is_named_and_pictures_share_size(folder):
                 "{kind: circle, diameter: 30 mm}",
                 "{kind: polygon, corners: [[-0.02, -0.02], [0.02, 0.02], [0.02, -0.02], [-0.02, 0.01]]}",
             ),
-            "meets itself",
+            "intersects itself",
         ),
         (("centre: {x: 0 m", "centre: {x: 3 m"), "lies outside the pictures"),
         ((f"interval: {PERIOD / 9.6} s", "interval: 3 s"), "too few for the period"),
-        (("[run_*.png]", "[run_0.png, run_1.png, run_0.png]"), "'run_0.png' stands twice"),
+        (("[run_*.png]", "[run_0.png, run_1.png, run_0.png]"), "'run_0.png' is given twice"),
     ],
 )
 def test_sections_centres_and_pulses_that_cannot_be_are_told(folder, pair, words):

@@ -199,7 +199,7 @@ waves: {channels: [elevation]}
     done = runner.invoke(app, ["measure", "records", str(tmp_path / "r.yaml"), "-o", str(tmp_path / "out"), "--json"])
     figures = {item["label"]: item for item in json.loads(done.stdout)["key_figures"]}
     assert figures["sound samples"]["text"] == "99.8 %"
-    share = float(re.search(r"([\d.]+) % of the time lies in no wave", figures["highest wave"]["detail"])[1])
+    share = float(re.search(r"([\d.]+) % of the time is in no wave", figures["highest wave"]["detail"])[1])
     # a ninth, and the waves cut by the ends of three blocks of fifty waves
     assert 11.1 <= share <= 11.1 + 100.0 * 2.0 / 50.0
 

@@ -21,8 +21,9 @@ from moyai.core.validity import Notice
 from moyai.report.document import Chapter, Column, Document, Listing, NoticeBlock, Paragraph, Table
 from moyai.report.encoding import column_unit
 from moyai.report.formatting import display_unit, format_quantity
-from moyai.report.html import render_html
+from moyai.report.html import notice_text, render_html
 from moyai.report.language import with_words_in_system
+from moyai.report.notices import value_and_limit
 from moyai.report.sketch import Sketch
 from moyai.report.systems import displayed_in, words_in_system
 from moyai.report.workbook import render_workbook
@@ -156,3 +157,10 @@ def test_check_shows_forces_in_the_units_asked(tmp_path: Path, words: list[str])
     assert not any("tf" in number["shown"] for number in record["derived"])
     wrong = CliRunner().invoke(app, ["check", str(file), "--units", "stone"])
     assert wrong.exit_code == 2 and "'stone' is no system of units" in wrong.output
+
+
+def test_angles_of_notices_are_radians_inside_and_degrees_on_the_page() -> None:
+    notice = Notice("body-turned-over", "it leans", value=math.radians(120.0), limit=math.radians(60.0), unit="rad")
+    assert "ound 120, limit 60" in notice_text(notice)[1]
+    assert value_and_limit(Notice("k", "m", value=2.0, limit=1.0)) == (2.0, 1.0)
+    assert notice.as_dict()["unit"] == "rad" and "unit" not in Notice("k", "m").as_dict()

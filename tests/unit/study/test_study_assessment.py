@@ -39,7 +39,7 @@ def test_lines_are_held_against_intact_and_damaged_factors(tmp_path):
     assert np.allclose(
         used.transpose("significant_height", "lost_line", "line").values, expected, equal_nan=True, rtol=1e-12
     )
-    assert any("not held against the standard" in notice.message for notice in result.notices)
+    assert any("not compared with the standard" in notice.message for notice in result.notices)
     component, index, value = governing(study, result, 3)[0]
     assert component.startswith("line ") and value == pytest.approx(np.nanmax(expected))
     assert study.cases[index].labels[0] == "1 m"

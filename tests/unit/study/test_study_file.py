@@ -306,7 +306,7 @@ def test_spectra_of_a_file_replace_a_sea_state_and_keep_its_seed(tmp_path):
     sea = case_at(study, study.cases[1]).model.waves[0]
     assert (sea.kind, sea.record, sea.seed, sea.name) == ("spectrum_file", 1, 1, "storm")
     reported = faults(tmp_path, "- spectra: {file: buoy.data_spec, sea: 'waves[storm]', direction: true}")
-    assert "tells no direction" in reported
+    assert "gives no direction" in reported
     assert "0 to 1" in faults(tmp_path, "- spectra: {file: buoy.data_spec, sea: 'waves[storm]', records: [5]}")
 
 

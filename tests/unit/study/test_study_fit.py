@@ -147,7 +147,7 @@ def test_the_page_of_a_fit_shows_values_correlations_and_residuals(tmp_path):
     ]  # fmt: skip
     text = write_report(result, tmp_path / "out")[0].read_text(encoding="utf-8")
     assert "55.612" in text and "55.6123" not in text.split("Case file as it was run")[0].split("plot-data")[0]
-    assert "hardly tell apart" in text and "-0.980" in text
+    assert "hardly distinguish" in text and "-0.980" in text
     assert "Response SWL/tension" in text and all(
         figure.panels[0].unit == "N" for figure in document.sections[2].blocks
     )

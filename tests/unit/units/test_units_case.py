@@ -153,8 +153,6 @@ def test_connectors_at_corners_and_faces_without_one_are_said():
     """A block of two by two, listed row by row: the second and third unit meet at a corner alone."""
     block = "units: {length: 20 m, places: [{x: -6 m, y: -11 m}, {x: -6 m, y: 11 m}, {x: 6 m, y: -11 m}, {x: 6 m, y: 11 m}]}"
     found = [str(warning) for warning in case((UNITS, block), (ANALYSES, "analyses: [statics]")).warnings]
-    assert any(
-        "units 2 and 3 turn no faces to each other" in warning and "x = 0 m, y = 0 m" in warning for warning in found
-    )
+    assert any("units 2 and 3 have no facing sides" in warning and "x = 0 m, y = 0 m" in warning for warning in found)
     assert any("1 and 3, 2 and 4 face each other and get none" in warning for warning in found)
     assert not any("face each other" in str(warning) for warning in case((ANALYSES, "analyses: [statics]")).warnings)

@@ -130,7 +130,7 @@ def test_regular_waves_that_lift_a_fender_give_bounds_that_hold_nothing() -> Non
         assert {item.outcome for item in judge(found, LIMITS, computed=True).judgements} == {outcome}
         words = {item.name: item.detail for item in found}
         for name in ("connector_force", "gap_motion", "gap_closing"):
-            assert ("lets go within the wave" in words[name]) is bool(loses), name
+            assert ("releases within the wave" in words[name]) is bool(loses), name
             assert "slow drift" not in words[name]
 
 

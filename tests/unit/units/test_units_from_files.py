@@ -181,7 +181,7 @@ def test_bodies_in_another_order_and_axes(folder, computed, dataset):
     turned = moved_axes(in_order(dataset, [2, 1]), (30.0, -5.0), np.radians(-90.0))
     write_coefficients("wamit", turned, folder / "turned")
     entry = "program: wamit, path: turned/unit.1"
-    with pytest.raises(CaseError, match="stands at x = "):
+    with pytest.raises(CaseError, match="is at x = "):
         case(folder, *from_file(entry))
     # axes of the file in those of the row: turned back by 90 degrees, its origin at -R(90) (30, -5) = (-5, -30)
     entry += ", x_axis_heading_deg: 90, origin: [-5 m, -30 m]"
@@ -201,7 +201,7 @@ SLIPS = {
     "other waves": ("program: nemoh, path: nemoh", (("[5 s, 6 s]", "[3 s, 6 s]"),), "the file holds 0.8 to 1.9 rad/s"),
     "other depth": ("program: nemoh, path: nemoh", (("water_depth: 10 m", "water_depth: 14 m"),), "a depth of 10 m"),
     "other section": ("program: nemoh, path: nemoh", (("beam: 8 m", "beam: 10 m"),), "the heave stiffness of body"),
-    "other place": ("program: nemoh, path: nemoh", (("y: 7 m", "y: 15 m"),), "body 'unit_2' of the file stands"),
+    "other place": ("program: nemoh, path: nemoh", (("y: 7 m", "y: 15 m"),), "body 'unit_2' of the file is"),
     "map": ("program: nemoh, path: nemoh", (("[statics, frequency]", "[statics, frequency, map]"),), "the panels"),
     "lid": ("program: nemoh, path: nemoh", (("  draught", "  gap_damping_lid: 0.1\n  draught"),), "of the gaps"),
     "no points": ("program: bemio, path: bemio/unit.h5", (), "reference_points"),

@@ -23,7 +23,7 @@ class Bi(NetLaw):
     reynolds_range: ClassVar[tuple[float, float]] = (0.0, math.inf)
     # the law holds no solidity: it was fitted to one net, of about a quarter by twine and mesh as reported elsewhere
     solidity_range: ClassVar[tuple[float, float]] = (0.2, 0.3)
-    skin: ClassVar[str] = "the law knows no solidity: its force does not vanish with it; 0.04 along the panel"
+    skin: ClassVar[str] = "the law does not depend on solidity: its force does not vanish with it; 0.04 along the panel"
     basis: ClassVar[str] = "one net"
 
     def _coefficients(self, angle: Array, speed: Array, net: Net, kinematic_viscosity: float) -> tuple[Array, Array]:

@@ -24,7 +24,7 @@ FACTOR, EXPONENT = 9.84, 0.36
 class Matsubara(NetLaw):
     """C_D = 9.84 Re^-0.36 on the area of the twines, across a panel; a share of it along the panel.
 
-    Below Re = 84, where the measured values scatter, the power goes on up to a cap; above 1800, the largest number
+    Below Re = 84, where the measured values scatter, the power continues up to a cap; above 1800, the largest number
     towed, the coefficient is held.
 
     Raises
@@ -38,7 +38,7 @@ class Matsubara(NetLaw):
     source: ClassVar[str] = "Matsubara, Noda and Nishihira, dynamic response of an offshore fish cage, equation 2"
     reynolds_range: ClassVar[tuple[float, float]] = (84.0, 1800.0)
     solidity_range: ClassVar[tuple[float, float]] = (0.22, 0.687)
-    outside: ClassVar[str] = "below, the power goes on up to the cap; above, the coefficient is held"
+    outside: ClassVar[str] = "below, the power law is extrapolated up to the cap; above, the coefficient is held"
     skin: ClassVar[str] = "no force at zero solidity; the tangential share along the panel"
     basis: ClassVar[str] = "wire nets"
     confirmed: ClassVar[bool] = True
@@ -49,7 +49,7 @@ class Matsubara(NetLaw):
     #: ``geometric`` counts them once, and then the same law gives less than the paper measured.
     solidity: Literal["listed", "geometric"] = "listed"
     #: Force along the panel: this share of C_D, on the speed along the panel [-]. Not from the paper, which towed its
-    #: nets square to the flow.
+    #: nets perpendicular to the flow.
     tangential_share: float = 0.25
 
     def __post_init__(self) -> None:
@@ -74,7 +74,7 @@ class Matsubara(NetLaw):
         return np.where(number > least, FACTOR * np.maximum(number, least) ** -EXPONENT, self.cap)
 
     def range_solidity(self, net: Net) -> float:
-        """Return the solidity that the law speaks of."""
+        """Return the solidity that the law is for."""
         return net.listed if self.solidity == "listed" else net.solidity
 
     def _coefficients(self, angle: Array, speed: Array, net: Net, kinematic_viscosity: float) -> tuple[Array, Array]:

@@ -36,7 +36,7 @@ class PowerLawNet(NetLaw):
     source: ClassVar[str] = "a fit of one's own"
     reynolds_range: ClassVar[tuple[float, float]] = (0.0, math.inf)
     solidity_range: ClassVar[tuple[float, float]] = (0.0, 1.0)
-    outside: ClassVar[str] = "below, the power goes on up to the cap; above, the coefficient is held"
+    outside: ClassVar[str] = "below, the power law is extrapolated up to the cap; above, the coefficient is held"
     basis: ClassVar[str] = "one net"
     skin: ClassVar[str] = "no force at zero solidity; the tangential share along the panel"
 
@@ -44,8 +44,8 @@ class PowerLawNet(NetLaw):
     factor: float
     #: See ``factor``.
     exponent: float
-    #: ``lowest``, ``highest``: Range of Re that they were found in: below it the power goes on up to the cap, above it
-    #: C_D is held.
+    #: ``lowest``, ``highest``: Range of Re that they were found in: below it the power law is extrapolated up to the
+    #: cap, above it C_D is held.
     lowest: float = 0.0
     #: See ``lowest``.
     highest: float = math.inf
@@ -91,7 +91,7 @@ class PowerLawNet(NetLaw):
         return np.where(number > least, self.factor * np.maximum(number, least) ** -self.exponent, self.cap)
 
     def range_solidity(self, net: Net) -> float:
-        """Return the solidity that the law speaks of."""
+        """Return the solidity that the law is for."""
         return net.listed if self.solidity == "listed" else net.solidity
 
     def _coefficients(self, angle: Array, speed: Array, net: Net, kinematic_viscosity: float) -> tuple[Array, Array]:

@@ -1,4 +1,4 @@
-"""Hold a model against observations: bias, scatter, skill, by sea state, and the error of the field paper."""
+"""Compare a model with observations: bias, scatter, skill, by sea state, and the error of the field paper."""
 
 from __future__ import annotations
 
@@ -131,9 +131,9 @@ class Overlay:
 
     #: Instants of the observation inside the model's time [s].
     time: Array
-    #: NaN in gaps.
+    #: Values of the model; NaN in gaps.
     model: Array
-    #: NaN in gaps.
+    #: Values observed; NaN in gaps.
     observed: Array
     #: Seconds by which the model was moved.
     lag: float

@@ -1,4 +1,4 @@
-"""Hold the variables of a result against the columns of a record, along time, period or any other coordinate."""
+"""Compare the variables of a result with the columns of a record, along time, period or any other coordinate."""
 
 from __future__ import annotations
 
@@ -257,7 +257,7 @@ def _find(wanted: str, variables: Mapping[str, Any]) -> str:
         return fitting[0]
     if len(fitting) > 1:
         raise InputError(
-            f"'{wanted}' stands in {len(fitting)} groups", parameter="variable", allowed=", ".join(fitting[:20])
+            f"'{wanted}' is in {len(fitting)} groups", parameter="variable", allowed=", ".join(fitting[:20])
         )
     near = difflib.get_close_matches(wanted, list(variables), n=3, cutoff=0.4)
     renamed = former(wanted.rsplit("/", 1)[-1])

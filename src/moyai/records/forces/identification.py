@@ -157,7 +157,8 @@ def _clean(record: ForceRecord) -> tuple[ForceRecord, list[Notice]]:
             notices.append(
                 Notice(
                     "velocity-noise",
-                    f"velocity {component + 1}: the record is too short to tell waves from noise, which would lower "
+                    f"velocity {component + 1}: the record is too short to separate waves from noise, which would "
+                    "lower "
                     "C_M by its share of the derivative",
                     remedy="use a record of 20 waves and more",
                 )

@@ -91,7 +91,7 @@ def implausible_notices(fits: Sequence[ForceFit], setup: Setup) -> list[Notice]:
 
 
 def periodicity_notices(record: ForceRecord, period: float, orders: int) -> list[Notice]:
-    """Hold the velocity against mean and harmonics of the period.
+    """Compare the velocity with mean and harmonics of the period.
 
     Raises
     ------
@@ -120,7 +120,7 @@ def periodicity_notices(record: ForceRecord, period: float, orders: int) -> list
                     f"harmonics of {period:.4g} s: noise, a wrong period or irregular waves; they bias C_D",
                     value=float(share),
                     limit=TOLD_SHARE,
-                    remedy="check the period; of noisy velocities trust the Fourier method",
+                    remedy="check the period; for noisy velocities use the Fourier method",
                 )
             )
     return notices
@@ -181,7 +181,7 @@ def harmonic_notices(fit: ForceFit, record: ForceRecord, omega: float) -> list[N
             "coefficients beyond their intervals",
             value=share,
             limit=0.1,
-            remedy="give 'harmonics: [2, 3]', or trust the Fourier method",
+            remedy="give 'harmonics: [2, 3]', or use the Fourier method",
         )
     ]
 

@@ -195,17 +195,17 @@ class NoiseCut:
 
     #: Frequency above which force and velocity have nothing in common [Hz].
     frequency: float
-    #: Share of the variance of the derivative that noise makes: as recorded, and below the cut.
+    #: Share of the variance of the derivative that noise makes, as recorded.
     share: float
-    #: Share of the variance of the derivative that noise makes: as recorded, and below the cut.
+    #: The same share below the cut.
     share_left: float
 
 
 def noise_cut(velocity: Array, force: Array, step: float) -> NoiseCut | None:
     """Return where noise takes over in the derivative of a velocity (samples,) [eq:identification-noise].
 
-    The force knows of the waves and not of the noise of the current meter: the derivative is cut where the part that is
-    coherent with the force ends. ``None`` where the record is too short to tell.
+    The force contains the waves and not the noise of the current meter: the derivative is cut where the part that is
+    coherent with the force ends. ``None`` where the record is too short to show it.
     """
     from scipy.signal import csd, welch
 
@@ -253,7 +253,7 @@ def period_of(time: Array, records: Array) -> float:
     Raises
     ------
     InputError
-        When the record holds less than two periods, so that it cannot tell.
+        When the record holds less than two periods, so that it does not show it.
     """
     step = float((time[-1] - time[0]) / (time.size - 1))
     duration = step * time.size

@@ -37,7 +37,7 @@ VARIABLES: dict[str, tuple[str, str]] = {
     "sample": ("1", "bootstrap samples of the coefficients"),
     "keulegan_carpenter": ("1", "Keulegan-Carpenter number u T / b"),
     "inertia_reduction": ("1", "ideal less found inertia coefficient"),
-    "equivalent_gamma": ("1", "gamma of the circulation that the reduction stands for"),
+    "equivalent_gamma": ("1", "gamma of the circulation equivalent to the reduction"),
     "equivalent_gamma_half_width": ("1", "half width of that gamma, from that of C_M"),
     "residual_deviation": ("N/m", "standard deviation of the residual"),
     "component": ("1", "number of the component"),

@@ -244,8 +244,8 @@ def _vibration(
         notices.append(
             Notice(
                 "net-vibration-absent",
-                f"no line stands out of the spectrum of the still-water runs between {lowest:g} and "
-                f"{float(search.frequency[-1]) / 1.1:.3g} Hz; nothing was taken out",
+                f"no line is significant in the spectrum of the still-water runs between {lowest:g} and "
+                f"{float(search.frequency[-1]) / 1.1:.3g} Hz; nothing was removed",
                 severity="information",
             )
         )
@@ -270,8 +270,8 @@ def _towing(
         notices.append(
             Notice(
                 "net-lift",
-                f"the median lift is {100.0 * float(np.median(lifts)):.0f} % of the drag, where a net square to the "
-                "flow has none",
+                f"the median lift is {100.0 * float(np.median(lifts)):.0f} % of the drag, where a net perpendicular "
+                "to the flow has none",
                 float(np.median(lifts)),
                 0.05,
                 "warning",
@@ -402,7 +402,7 @@ def _laws(
             confidence=campaign.confidence,
         )
     except InputError as error:
-        text = f"no law of solidity and diameter: {error.fault.message}"
+        text = f"no formula of solidity and diameter: {error.fault.message}"
         notices.append(Notice("net-joint-law", text, severity="information", remedy=error.fault.remedy))
         return tuple(laws), None
     if joint.left_out_error >= joint.pooled_error:

@@ -15,7 +15,7 @@ _FEW_LEVELS = 40
 _REMEDIES = {
     "clipped": "use a wider range of the gauge; the coefficients are too small",
     "spikes": "correct single samples, or choose a part without them",
-    "flat": "choose a part in which the channel lives",
+    "flat": "choose a part in which the channel varies",
 }
 
 
@@ -41,7 +41,7 @@ def record_notices(run: NetRun) -> list[Notice]:
         for kind, count in found.items():
             if count == 0:
                 continue
-            words = {"clipped": "stand at the limit of the gauge", "spikes": "are spikes", "flat": "stand still"}[kind]
+            words = {"clipped": "are at the limit of the gauge", "spikes": "are spikes", "flat": "are constant"}[kind]
             notices.append(
                 Notice(
                     f"net-record-{kind}",

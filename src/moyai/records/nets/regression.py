@@ -33,9 +33,9 @@ class NetPowerLaw:
     factor: float
     #: See ``factor``.
     exponent: float
-    #: At the confidence asked for.
+    #: Interval of the factor at the confidence asked for.
     factor_interval: tuple[float, float]
-    #: At the confidence asked for.
+    #: Interval of the exponent at that confidence.
     exponent_interval: tuple[float, float]
     #: Standard deviation of ln C_D beyond the errors of the runs.
     scatter: float
@@ -133,11 +133,11 @@ class JointLaw:
     between: float
     #: Width of the prior of the standardised slopes of solidity and diameter: 0 leaves one power law for all.
     prior: float
-    #: What the law was fitted to.
+    #: Reynolds numbers that the law was fitted to.
     reynolds_range: tuple[float, float]
-    #: What the law was fitted to.
+    #: Solidities that the law was fitted to.
     solidity_range: tuple[float, float]
-    #: What the law was fitted to.
+    #: Twine diameters that the law was fitted to [m].
     diameter_range: tuple[float, float]
     #: ``count``, ``nets``: Runs and nets.
     count: int
@@ -294,7 +294,7 @@ def fit_joint_law(
             "the Reynolds numbers of the runs hardly differ", parameter="runs", remedy="tow at several speeds"
         )
     noise = np.square(spread / value)
-    # a diameter that solidity already tells, or too few nets, leaves nothing to learn from it
+    # a diameter that solidity already gives, or too few nets, leaves nothing to learn from it
     per_net = np.array([[share[index == k][0], d[index == k][0]] for k in range(len(names))])
     distinct = float(np.ptp(d)) > 0.1 and len(names) > _LEAST_NETS
     with_diameter = distinct and abs(float(np.corrcoef(per_net.T)[0, 1])) < 0.98

@@ -1,4 +1,4 @@
-"""Steady towing: the window that is steady, and its mean with an uncertainty that knows of correlated samples."""
+"""Steady towing: the window that is steady, and its mean with an uncertainty that allows for correlated samples."""
 
 from __future__ import annotations
 

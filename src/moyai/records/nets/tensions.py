@@ -39,7 +39,7 @@ class CageRecord:
     Raises
     ------
     InputError
-        For gaps, uneven steps, or an end that stands twice.
+        For gaps, uneven steps, or an end that is given twice.
     """
 
     name: str
@@ -76,7 +76,7 @@ class CageRecord:
 
 @dataclass(frozen=True)
 class EndTension:
-    """What one end of a line bears."""
+    """What one end of a line carries."""
 
     line: str
     end: str
@@ -187,7 +187,7 @@ def _end_notices(name: str, found: Sequence[EndTension]) -> list[Notice]:
                     "cage-one-end",
                     f"run {name}: line {line} was measured at one end only, {ends[0].end}",
                     severity="information",
-                    remedy="measure both ends to see what weight and drag of the line take",
+                    remedy="measure both ends to find the part of weight and drag of the line",
                 )
             )
     return notices

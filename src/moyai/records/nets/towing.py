@@ -31,9 +31,9 @@ class Tow:
     window: tuple[float, float]
     #: [m/s].
     speed: Mean
-    #: [N].
+    #: Mean force [N].
     force: Mean
-    #: [N].
+    #: Mean lift [N]; None where it was not measured.
     lift: Mean | None
     #: Force over the whole record, without the vibration [N].
     clean: Array
@@ -132,9 +132,9 @@ class FrameLaw:
 
     #: Of its runs, speed rising [m/s].
     speeds: tuple[float, ...]
-    #: Of its runs, speed rising [N].
+    #: Mean forces of its runs, speed rising [N].
     forces: tuple[float, ...]
-    #: Of its runs, speed rising [N].
+    #: Their standard errors [N].
     errors: tuple[float, ...]
     names: tuple[str, ...]
 
@@ -224,7 +224,7 @@ def tow_coefficients(
                 tow.force.value,
                 0.0,
                 "error",
-                "give 'reverse_force: true' where the gauge counts the other way",
+                "give 'reverse_force: true' where the gauge has the opposite sign",
             )
             if against
             else Notice(

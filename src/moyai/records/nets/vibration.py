@@ -149,7 +149,7 @@ def _limit(freedom: float, count: int) -> float:
     from scipy.stats import chi2
 
     chance = float(chi2.ppf(1.0 - _FALSE_ALARM / max(count, 1), max(freedom, 2.0)) / max(freedom, 2.0))
-    # held against a median, which lies below the mean of so few degrees of freedom
+    # compared with a median, which lies below the mean of so few degrees of freedom
     return max(_LEAST_PROMINENCE, chance * freedom / float(chi2.ppf(0.5, max(freedom, 2.0))))
 
 

@@ -59,9 +59,9 @@ class WaveCoefficients:
     reynolds: float
     #: See ``reynolds``.
     keulegan_carpenter: float
-    #: [m/s].
+    #: Amplitude of the velocity [m/s].
     velocity_amplitude: float
-    #: [m/s].
+    #: Mean velocity [m/s].
     mean_velocity: float
     #: As met [s].
     period: float
@@ -69,9 +69,9 @@ class WaveCoefficients:
     drag: float
     #: See ``drag``.
     inertia: float
-    #: Half of the intervals [-].
+    #: Half of the interval of the drag coefficient [-].
     drag_half_width: float
-    #: Half of the intervals [-].
+    #: Half of the interval of the inertia coefficient [-].
     inertia_half_width: float
     #: ``drag_error``, ``inertia_error``, ``correlation``: Standard errors and correlation of both [-].
     drag_error: float
@@ -79,9 +79,9 @@ class WaveCoefficients:
     inertia_error: float
     #: See ``drag_error``.
     correlation: float
-    #: Whether the interval is narrower than half of the coefficient.
+    #: Whether the interval of the drag coefficient is narrower than half of it.
     drag_known: bool
-    #: Whether the interval is narrower than half of the coefficient.
+    #: The same of the inertia coefficient.
     inertia_known: bool
     #: C_D A and C_M V of the frame that were subtracted [m2].
     frame_drag_area: float

@@ -54,7 +54,7 @@ def join(records: Sequence[Record], *, step: float, largest_gap: float | None = 
     Returns
     -------
     Record
-        With a notice that tells how much was interpolated and what share is missing.
+        With a notice that gives how much was interpolated and what share is missing.
 
     Raises
     ------

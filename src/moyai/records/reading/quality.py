@@ -43,9 +43,9 @@ class QualityOptions:
     clip_samples: int = 3
     #: Look for clipping at the lowest value too; not where a channel rests there by nature (a slack line).
     clip_lowest: bool = True
-    #: Range of the instrument [unit of the channel].
+    #: Lower end of the instrument's range [unit of the channel].
     lowest: float = -math.inf
-    #: Range of the instrument [unit of the channel].
+    #: Upper end of it [unit of the channel].
     highest: float = math.inf
     #: A trend of the block means over the record, beyond its own uncertainty, that exceeds this share of the channel's
     #: standard deviation is a drift; infinite looks for none.
@@ -459,7 +459,7 @@ def _percent(count: int, samples: int) -> str:
 def quality_notices(
     quality: Mapping[str, Mapping[str, int]], samples: int, gaps: Sequence[tuple[float, float]], dated: bool
 ) -> tuple[Notice, ...]:
-    """Return what a reader must know of the quality of a record."""
+    """Return what a reader must know about the quality of a record."""
     notices = []
     if gaps:
         start, duration = max(gaps, key=lambda gap: gap[1])
@@ -467,7 +467,7 @@ def quality_notices(
             Notice(
                 "record-gaps",
                 f"{counted(len(gaps), 'gap')}, the longest {duration:.4g} s from {instant_text(start, dated)}; "
-                "spectra fill only short ones, and say so",
+                "only short ones are filled for spectra, with a notice",
                 float(len(gaps)),
             )
         )

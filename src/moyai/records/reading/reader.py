@@ -253,7 +253,7 @@ class _LoggerClock:
             self.file_has_epoch, zone = read_arrays.parquet_stamps(path, column)
             if zone and self.time.utc_offset != 0.0:
                 raise InputError(
-                    f"{path.name}, column '{column}' knows its time zone ({zone})",
+                    f"{path.name}, column '{column}' has a time zone ({zone})",
                     parameter="time.utc_offset",
                     remedy="leave 'utc_offset' out: it would count twice",
                 )
@@ -355,7 +355,7 @@ class _LoggerClock:
             f"{instant_text(highest[row], self.dated)}"
         )
         if self.time.order == "strict":
-            remedy = "sort or cut the file, or say 'order: drop' to leave such rows out"
+            remedy = "sort or cut the file, or give 'order: drop' to leave such rows out"
             if time[row] == highest[row] and not self.time.rate > 0.0:
                 remedy = "give 'rate' where the logger rounds its stamps, for instance to whole seconds, or " + remedy
             raise InputError(reported, parameter="time", remedy=remedy)

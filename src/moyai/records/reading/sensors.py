@@ -117,9 +117,9 @@ class SurfaceFromRecord:
 
     #: [m], band-limited.
     elevation: Array
-    #: Band that was carried over [Hz].
+    #: Lower end of the band that was carried over [Hz].
     lowest: float
-    #: Band that was carried over [Hz].
+    #: Upper end of it [Hz].
     highest: float
     notices: tuple[Notice, ...]
 

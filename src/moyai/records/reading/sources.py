@@ -131,7 +131,7 @@ class LoggerSource:
         found = ENDINGS.get(path.suffix.lower())
         if found is None:
             raise InputError(
-                f"{path.name}: the ending '{path.suffix}' tells no format",
+                f"{path.name}: the ending '{path.suffix}' is of no known format",
                 parameter="format",
                 allowed="csv, mat, netcdf, parquet",
                 remedy="give 'format'",

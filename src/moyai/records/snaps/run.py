@@ -26,7 +26,7 @@ _SAME = 1e-6
 
 
 def measure_snaps(runs: SnapRuns, progress: Progress = silent) -> SnapFindings:
-    """Find the impact tension of every run, its similarity numbers, and hold the models against them.
+    """Find the impact tension of every run, its similarity numbers, and compare the models with them.
 
     Parameters
     ----------

@@ -90,25 +90,26 @@ def view_notices(calibration: CameraCalibration, centre: ArrayLike) -> tuple[Not
     first = (along - here) * [1.0, -1.0]
     second = (up - here) * [1.0, -1.0]
     mirrored = first[0] * second[1] - first[1] * second[0] < 0.0
-    turn = math.degrees(math.atan2(-second[0], second[1]))
+    turn = math.atan2(-second[0], second[1])
     if mirrored:
         notices.append(
             Notice(
                 "view-mirrored",
                 "the targets show the light sheet mirrored: with z upwards x runs to the left of the pictures, and "
-                "what turns clockwise in them counts as anticlockwise",
+                "clockwise in them is anticlockwise",
                 remedy="right for a camera on the other side of the tank; else columns and rows, or a sign of x or z, "
                 "were exchanged",
             )
         )
-    if abs(turn) > 45.0:
+    if abs(turn) > 0.25 * math.pi:
         notices.append(
             Notice(
                 "view-turned",
-                f"the upward direction of the targets is turned by {turn:.0f} degrees in the pictures",
+                f"the upward direction of the targets is turned by {math.degrees(turn):.0f} degrees in the pictures",
                 value=abs(turn),
-                limit=45.0,
+                limit=0.25 * math.pi,
                 remedy="right for a camera that was turned; else columns and rows, or x and z, were exchanged",
+                unit="rad",
             )
         )
     return tuple(notices)

@@ -45,9 +45,9 @@ class StreakRun:
     name: str
     #: Wave period [s].
     period: float
-    #: Velocity amplitudes of the undisturbed orbit at the centre of the section [m/s].
+    #: Velocity amplitude along x of the undisturbed orbit at the centre of the section [m/s].
     amplitude_x: float
-    #: Velocity amplitudes of the undisturbed orbit at the centre of the section [m/s].
+    #: The same along z [m/s].
     amplitude_z: float
     recordings: tuple[Recording, ...]
     #: Reduction of the inertia coefficient found from forces; NaN where it was not measured.
@@ -124,7 +124,7 @@ def measure_campaign(
     ----------
     campaign : Campaign
     store : DatasetStore, optional
-        Keeps every recording that is done: an interrupted batch goes on from there.
+        Keeps every recording that is done: an interrupted batch continues from there.
     attributes : mapping, optional
         Attributes of the root of the result, such as the text of the case file.
     progress : Progress
@@ -281,7 +281,7 @@ def _result(
         notices.extend(law_notices)
     message = ""
     if interrupted:
-        message = f"{len(measured)} of {len(campaign.runs)} runs are done; the same command goes on from there"
+        message = f"{len(measured)} of {len(campaign.runs)} runs are done; the same command continues from there"
     unique = tuple(dict.fromkeys(notices))
     return Result(
         xr.DataTree.from_dict(VOCABULARY.close(groups)),

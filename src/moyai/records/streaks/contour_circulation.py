@@ -124,7 +124,7 @@ def extrapolate_stokes(
         raise InputError(
             f"{ratio.size} contour(s) of Bc/B >= {least:g} with a circulation are left: the fit needs two",
             parameter="contours",
-            remedy="ask for larger contours, or give pictures of a larger field",
+            remedy="choose larger contours, or give pictures of a larger field",
         )
     basis = np.column_stack([np.ones_like(ratio), ratio**-4.0])
     root = np.sqrt(weight)[:, None]
@@ -223,7 +223,7 @@ def measure_circulation(
     length = float(np.ptp(shape[:, 0]))
     outlier = outliers(points, vectors, error, length)
     if orbits is not None:
-        # a place that no orbit leads around cannot be held against the exact drift
+        # a place that no orbit leads around cannot be compared with the exact drift
         outlier = outlier | np.isnan(orbits.drift(points, 0.0)[0]).any(axis=1)
     points, vectors, error = points[~outlier], vectors[~outlier], error[~outlier]
     contours = [contour_points(shape, item) for item in ratio]
@@ -339,11 +339,11 @@ def _summary(
         notices.append(
             Notice(
                 "contours-few",
-                f"{used.size} contours of Bc/B >= {least:g} carry the circulation to the section: two unknowns pass "
-                "through two values, so that no misfit shows",
+                f"{used.size} contours of Bc/B >= {least:g} give the circulation at the section: two unknowns are "
+                "fitted to two values, so that no misfit shows",
                 value=float(used.size),
                 limit=3.0,
-                remedy="ask for more contours beyond this size, or give pictures of a larger field",
+                remedy="choose more contours beyond this size, or give pictures of a larger field",
             )
         )
     return ContourCirculation(

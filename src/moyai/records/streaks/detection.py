@@ -198,7 +198,7 @@ def background_level(grey: Array, block: int, hidden: NDArray[np.bool_]) -> Arra
             piece = slice(row_edges[i], row_edges[i + 1]), slice(column_edges[j], column_edges[j + 1])
             seen = grey[piece][~hidden[piece]]
             if seen.size > 0.2 * hidden[piece].size:
-                # Streaks only ever add light: the mean below the median tells the level between whole grey levels
+                # Streaks only ever add light: the mean below the median gives the level between whole grey levels
                 middle = np.median(seen)
                 medians[i, j] = seen[
                     np.abs(seen - middle) <= 3.0 * max(1.4826 * np.median(np.abs(seen - middle)), 1.0)

@@ -21,7 +21,7 @@ from moyai.core.errors import InputError
 class StreakChain:
     """Streaks of one particle in the order of time."""
 
-    #: ``start_time``, ``end_time``: Instants at which the light goes on and off [s]; shape (streaks,).
+    #: ``start_time``, ``end_time``: Instants at which the light is switched on and off [s]; shape (streaks,).
     start_time: Array
     #: See ``start_time``.
     end_time: Array

@@ -163,7 +163,7 @@ def link_exposure(streaks: WorldStreaks, train: PulseTrain, settings: LinkingSet
     -------
     chains : list of LinkedChain
     undecided : int
-        Chains of four streaks and more whose direction the light does not tell.
+        Chains of four streaks and more whose direction the light does not give.
     """
     partner = _join_ends(streaks, train, settings)
     chains: list[LinkedChain] = []

@@ -180,7 +180,7 @@ def analyse_recording(
     mask_margin : float
         Margin around it [m].
     store : DatasetStore, optional
-        Keeps the outcome, so that an interrupted batch goes on where it stopped.
+        Keeps the outcome, so that an interrupted batch continues where it stopped.
     progress : Progress
 
     Returns
@@ -227,7 +227,7 @@ def _require_streaks(recording: Recording, found: list[Streaks], settings: Detec
         return
     worst = int(np.argmin(counts))
     raise InputError(
-        f"{recording.pictures[worst].name}: {counts[worst]} streaks stand out of the noise of "
+        f"{recording.pictures[worst].name}: {counts[worst]} streaks exceed the noise of "
         f"{found[worst].noise:.2g} grey levels",
         parameter="pictures",
         allowed=f"pictures with streaks brighter than {settings.threshold:g} times the noise",

@@ -23,7 +23,7 @@ LEAST_EVIDENCE = 5.0
 class PulseTrain:
     """Pulses of light while the shutter is open, or over the frames of a film."""
 
-    #: ``start``, ``duration``: Instants at which the light goes on, and on-times [s]; shape (pulses,).
+    #: ``start``, ``duration``: Instants at which the light is switched on, and on-times [s]; shape (pulses,).
     start: Array
     #: See ``start``.
     duration: Array

@@ -54,11 +54,11 @@ class BlockResult:
     cut: dict[str, Waves] = field(default_factory=dict)
     #: By channel: (frequency, density, degrees of freedom, figures).
     spectra: dict[str, tuple[Array, Array, float, dict[str, float]]] = field(default_factory=dict)
-    #: Figures by name.
+    #: Values of the directions by name.
     directions: dict[str, float] = field(default_factory=dict)
-    #: Figures by name.
+    #: Values of the current by name.
     current: dict[str, float] = field(default_factory=dict)
-    #: Figures by name.
+    #: Values of the reflection by name.
     reflection: dict[str, float] = field(default_factory=dict)
     #: By channel: figures by name.
     tensions: dict[str, dict[str, float]] = field(default_factory=dict)
@@ -363,7 +363,7 @@ def _reflection(survey: Survey, data: _Samples, notices: list[Notice]) -> dict[s
         return {}
     still = float(np.mean(np.diff(front, axis=0) == 0.0, axis=0).max())
     if still > _STILL and math.isfinite(found.reflection):
-        notices.append(Notice("reflection-skipped", "a block in which a gauge stands still has no reflection analysis"))
+        notices.append(Notice("reflection-skipped", "a block with a constant gauge has no reflection analysis"))
         return {}
     notices.extend(found.notices)
     out = {
@@ -417,7 +417,9 @@ def _tensions(
         known = np.isfinite(values)
         if not known.all() and use.steady == "low_pass":
             notices.append(
-                Notice("tension-gaps", f"{use.channel}: a block with gaps bears no low pass and is left out")
+                Notice(
+                    "tension-gaps", f"{use.channel}: a low pass is not possible in a block with gaps, which is left out"
+                )
             )
             continue
         time, values = time[known], values[known]

@@ -95,9 +95,9 @@ class CampaignLaws:
     pulse: float = 0.8
     #: Delay of the pull behind the crest [s].
     lag: float = 1.1
-    #: Mean of the pretension [N].
+    #: Mean pretension of the new type [N].
     steady_new: float = 8.0e3
-    #: Mean of the pretension [N].
+    #: Mean pretension of the conventional type [N].
     steady_conventional: float = 11.0e3
     #: Standard deviation of its slow wander, over the mean.
     steady_scatter: float = 0.07

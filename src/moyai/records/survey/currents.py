@@ -142,9 +142,9 @@ class Profile:
 
     #: Heights of the bins above the bed or depths, as given [m].
     z: Array
-    #: Mean velocities [m/s].
+    #: Mean velocity along x [m/s].
     x: Array
-    #: Mean velocities [m/s].
+    #: Mean velocity along y [m/s].
     y: Array
     #: Share of samples that were good in each bin.
     share: Array

@@ -112,7 +112,7 @@ def directional_spectrum(
     lowest, highest : float
         Band [Hz].
     largest_order : int, optional
-        Highest order of the Fourier series: by default what the number of cross spectra bears, at most 6.
+        Highest order of the Fourier series: by default what the number of cross spectra determines, at most 6.
 
     Returns
     -------
@@ -145,7 +145,7 @@ def directional_spectrum(
     most = min(6, (independent - 1) // 2) if largest_order is None else largest_order
     if most < 1:
         raise InputError(
-            "these sensors cannot tell directions", parameter="sensors", remedy="add velocities or positions"
+            "these sensors cannot resolve directions", parameter="sensors", remedy="add velocities or positions"
         )
     density = np.zeros((frequency.size, HEADINGS))
     order = np.zeros(frequency.size, dtype=np.int64)
@@ -286,13 +286,13 @@ class FourierDirections:
     frequency: Array
     #: Surface elevation [m2/Hz], from the vertical channel.
     spectrum: Array
-    #: Fourier coefficients [-].
+    #: Fourier coefficient of cos [-].
     a1: Array
-    #: Fourier coefficients [-].
+    #: Fourier coefficient of sin [-].
     b1: Array
-    #: Fourier coefficients [-].
+    #: Fourier coefficient of cos 2 [-].
     a2: Array
-    #: Fourier coefficients [-].
+    #: Fourier coefficient of sin 2 [-].
     b2: Array
     #: Horizontal over vertical energy against linear theory [-]: 1 in a sea that obeys it.
     check_ratio: Array
@@ -339,7 +339,7 @@ def fourier_directions(spectra: CrossSpectra, sensors: Sequence[Sensor], water: 
             "these sensors are no triplet", parameter="sensors", allowed="a vertical quantity, one along x, one along y"
         )
     if len({(sensor.x, sensor.y) for sensor in sensors}) > 1:
-        raise InputError("the sensors of a triplet stand at one place", parameter="sensors")
+        raise InputError("the sensors of a triplet are at one place", parameter="sensors")
     frequency, matrix = spectra.frequency, spectra.matrix
     omega = 2.0 * math.pi * np.maximum(frequency, 1e-6)
     k = np.asarray(wave_number(omega, water.depth, water.gravity), dtype=float)

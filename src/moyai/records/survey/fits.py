@@ -32,7 +32,7 @@ _Row = tuple[str, str, str, float, float, float, float, float, float]
 
 
 def fit_relations(survey: Survey, groups: Mapping[str, xr.Dataset]) -> xr.Dataset | None:
-    """Fit every relation that the blocks bear.
+    """Fit every relation that the blocks determine.
 
     Parameters
     ----------

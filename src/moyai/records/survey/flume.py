@@ -80,7 +80,7 @@ class FlumeLayout:
                 f"no position for gauge {', '.join(unknown)}", parameter="gauges", allowed=", ".join(self.gauges)
             )
         if any(self.gauges[name] >= self.model for name in self.front):
-            raise InputError("a gauge in front of the model must stand between wavemaker and model", parameter="front")
+            raise InputError("a gauge in front of the model must be between wavemaker and model", parameter="front")
 
 
 @dataclass(frozen=True)
@@ -114,11 +114,11 @@ class RegularRun:
     reflection: float
     #: See ``reflection``.
     transmission: float
-    #: The same spread for these (incident in the unit of the gauges).
+    #: The same spread of the reflection coefficient.
     reflection_spread: float
-    #: The same spread for these (incident in the unit of the gauges).
+    #: The same spread of the transmission coefficient.
     transmission_spread: float
-    #: The same spread for these (incident in the unit of the gauges).
+    #: The same spread of the incident wave, in the unit of the gauges.
     incident_spread: float
     #: Channels in the order of the harmonics.
     names: tuple[str, ...]

@@ -39,9 +39,9 @@ class IrregularSeparation:
     reflection: float
     #: See ``reflection``.
     reflection_error: float
-    #: 4 sqrt(m0) over the band [m].
+    #: Incident 4 sqrt(m0) over the band [m].
     incident_height: float
-    #: 4 sqrt(m0) over the band [m].
+    #: Reflected 4 sqrt(m0) over the band [m].
     reflected_height: float
     degrees_of_freedom: float
     segments: int
@@ -244,7 +244,7 @@ def _condition_notices(frequency: Array, condition: Array, used: NDArray[np.bool
     span = f"from {lost.min():.3g} to {lost.max():.3g} Hz" if lost.size > 1 else f"at {lost[0]:.3g} Hz"
     message = (
         f"{lost.size} of {frequency.size} frequencies {span} are left out: "
-        "the gauges stand near a multiple of half a wavelength apart"
+        "the spacing of the gauges is near a multiple of half a wavelength apart"
     )
     return (Notice("gauge-spacing", message, worst, limit, remedy="use other gauges or a narrower band"),)
 

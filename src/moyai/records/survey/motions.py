@@ -24,9 +24,9 @@ class DecayFit:
     decay: Decay
     #: Position at rest [m or rad].
     rest: float
-    #: Part of the record that was used [s].
+    #: Start of the part of the record that was used [s].
     start: float
-    #: Part of the record that was used [s].
+    #: End of that part [s].
     end: float
     #: ``period_error``, ``damping_error``, ``quadratic_error``: Standard errors, over the half cycles left out one by
     #: one.
@@ -112,7 +112,7 @@ def fit_decay_record(
         )
         notices.append(Notice("decay-damping", message, found.damping_ratio, 0.0, remedy="check rest, start and end"))
     if found.ratios.size < 6 and quadratic:
-        message = f"{found.ratios.size} half cycles bear two damping coefficients badly"
+        message = f"{found.ratios.size} half cycles hardly determine two damping coefficients"
         notices.append(Notice("few-cycles", message, float(found.ratios.size), 6.0))
     errors = _jackknife(found, quadratic)
     return DecayFit(found, level, float(t[0]), float(found.extreme_times[-1]), *errors, tuple(notices))
@@ -326,9 +326,9 @@ def response_of(
 class RigidMotion:
     """Planar motion of a body from its markers; equation [eq:records-markers]."""
 
-    #: Displacement of the reference point [m].
+    #: Sway of the reference point [m].
     sway: Array
-    #: Displacement of the reference point [m].
+    #: Heave of the reference point [m].
     heave: Array
     #: Rotation [rad], positive about +y: moves a point above the centre towards +x.
     roll: Array

@@ -2,7 +2,7 @@
 
 With two gauges the equations have one solution, that of Goda and Suzuki (1976); with three and equal weights the least
 squares are those of Mansard and Funke (1980); more gauges follow the same formula. Gauges whose spacing is near a
-multiple of half the wavelength say the same thing twice: the condition number tells.
+multiple of half the wavelength say the same thing twice: the condition number shows it.
 
 References
 ----------

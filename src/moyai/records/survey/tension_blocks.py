@@ -61,13 +61,13 @@ class Blocks:
     current_normal: Array
     #: Mean of the steady part [N]; shape (blocks, lines).
     steady: Array
-    #: Statistics of the fluctuating maxima [N]; shape (blocks, lines).
+    #: Largest of the fluctuating maxima [N]; shape (blocks, lines).
     maximum: Array
-    #: Statistics of the fluctuating maxima [N]; shape (blocks, lines).
+    #: Mean of the highest tenth [N]; shape (blocks, lines).
     tenth: Array
-    #: Statistics of the fluctuating maxima [N]; shape (blocks, lines).
+    #: Mean of the highest third [N]; shape (blocks, lines).
     third: Array
-    #: Statistics of the fluctuating maxima [N]; shape (blocks, lines).
+    #: Mean of all of them [N]; shape (blocks, lines).
     mean: Array
     #: ``matched``, ``double``: Waves with a maximum; with a double peak; shape (blocks, lines).
     matched: Array

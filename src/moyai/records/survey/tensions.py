@@ -154,7 +154,7 @@ def _tops(values: Array, place: NDArray[np.int64]) -> Array:
 def find_delay(time: ArrayLike, elevation: ArrayLike, fluctuating: ArrayLike, *, longest: float) -> float:
     """Return the delay of the tension behind the waves [s] within bounds, by the largest correlation.
 
-    Positive parts are correlated (crests against pulls), the top is refined by a parabola. It cannot tell a delay from
+    Positive parts are correlated (crests against pulls), the top is refined by a parabola. A delay looks like
     one of a wave period more: keep ``longest`` below half a period, about the way that waves take from gauge to float.
 
     Parameters

@@ -59,7 +59,7 @@ class TidalFit:
     reference: float
     #: Complex amplitudes ``Re(X exp(-i omega (t - reference)))`` along x and y; shape (constituents, 2).
     amplitudes: ArrayLike
-    #: Constituents that the record is too short to tell from a larger neighbour.
+    #: Constituents that the record is too short to separate from a larger neighbour.
     left_out: tuple[str, ...]
     notices: tuple[Notice, ...]
 
@@ -99,7 +99,7 @@ def fit_tide(
     x, y : array_like
         Velocities [m/s] or, without ``y``, a water level [m]; NaN where missing.
     names : sequence of str, optional
-        Constituents; by default all that the record can tell apart.
+        Constituents; by default all that the record can separate.
     rayleigh : float
         Two constituents are distinguished when their frequencies differ by so many cycles over the record.
     trend : bool
@@ -133,7 +133,7 @@ def fit_tide(
         apart = min(abs(CONSTITUENTS[name] - speed) for speed in speeds) / 360.0 * length / 3600.0
         (chosen if apart >= rayleigh else left_out).append(name)
     if not chosen:
-        raise InputError(f"a record of {length / 3600.0:.3g} h tells no constituent apart", parameter="time")
+        raise InputError(f"a record of {length / 3600.0:.3g} h separates no constituents", parameter="time")
     reference = 0.5 * float(t.min() + t.max())
     omega = np.radians([CONSTITUENTS[name] for name in chosen]) / 3600.0
     angles = (t - reference)[:, None] * omega
@@ -160,7 +160,7 @@ def fit_tide(
     slope = (float(solution[-1, 0]) / length, float(solution[-1, 1]) / length) if trend else (0.0, 0.0)
     notices: tuple[Notice, ...] = ()
     if left_out:
-        message = f"the record is too short to tell {', '.join(left_out)} from larger neighbours"
+        message = f"the record is too short to separate {', '.join(left_out)} from larger neighbours"
         notices = (Notice("tide-resolution", message, length / 86400.0, severity="information"),)
     mean = (float(solution[0, 0]), float(solution[0, 1]))
     return TidalFit(ellipses, mean, slope, explained, reference, amplitudes, tuple(left_out), notices)

@@ -39,7 +39,7 @@ MOYAI.placeInTime = (times, t) => {
   };
 };
 
-// Colour and width both grow with the load, so that the reading does not hang on colour.
+// Colour and width both grow with the load, so that the reading is not attached to colour.
 MOYAI.loadColour = (fraction) => {
   const stops = [[134, 170, 200], [84, 120, 180], [110, 76, 160], [176, 48, 116], [214, 48, 31]];
   const f = Math.max(0, Math.min(0.9999, fraction)) * (stops.length - 1), i = Math.floor(f), r = f - i;

@@ -235,7 +235,7 @@ def figures(runs: AraiRuns) -> tuple[PaperFigure, ...]:
     """Return the figures of the paper."""
     sarpkaya = f"panels a to c of the paper in one. {PLANAR_WORDS}"
     return (
-        PaperFigure("1", None, "sketch of the tank; its measures stand in the case files"),
+        PaperFigure("1", None, "sketch of the tank; its dimensions are in the case files"),
         PaperFigure("2", _all_sections(runs), sarpkaya),
         PaperFigure("2a", _coefficients(runs, "2a", "circle")),
         PaperFigure("2b", _coefficients(runs, "2b", "square")),

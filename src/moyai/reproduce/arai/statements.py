@@ -167,8 +167,8 @@ def _paths(runs: AraiRuns) -> Finding:
     moved = np.linalg.norm(paths[:, -1] - paths[:, 0], axis=1)
     around = paths[:, 0, 0] * paths[:, -1, 1] - paths[:, 0, 1] * paths[:, -1, 0]
     words = (
-        f"{int(np.sum(around < 0.0))} of {len(paths)} particles on 2.2 times the circle stand clockwise of their "
-        f"place after a period, by {1e3 * moved.min():.1f} to {1e3 * moved.max():.1f} mm"
+        f"{int(np.sum(around < 0.0))} of {len(paths)} particles on 2.2 times the circle are clockwise of their place "
+        f"after a period, by {1e3 * moved.min():.1f} to {1e3 * moved.max():.1f} mm"
     )
     return judged(bool(np.all(around < 0.0)) and moved.min() > 0.0, words)
 

@@ -40,9 +40,9 @@ class CageWave:
     height: float
     #: Of the last two periods, from 0 [s].
     time: Array
-    #: From rest [m].
+    #: Sway from rest [m].
     sway: Array
-    #: From rest [m].
+    #: Heave from rest [m].
     heave: Array
     #: From rest [rad].
     rotation: Array
@@ -67,9 +67,9 @@ class CageWave:
 class MatsubaraRuns:
     """The runs that the figures and statements read."""
 
-    #: Over the periods of the case files.
+    #: Waves on taut lines, over the periods of the case files.
     taut: tuple[CageWave, ...]
-    #: Over the periods of the case files.
+    #: Waves on slack lines, over the same periods.
     slack: tuple[CageWave, ...]
     #: Taut, over the wave heights.
     higher: tuple[CageWave, ...]

@@ -58,7 +58,7 @@ def _weight(runs: MatsubaraRuns) -> Finding:
 def _sizes(runs: MatsubaraRuns) -> Finding:
     side, opening = runs.case.cage.extent[0], matsubara_net("F").aperture
     words = (
-        f"three floats of 4 cm stand on a side of {100 * side:g} cm; net F of table 1, of the same twine, has openings "
+        f"three floats of 4 cm are on a side of {100 * side:g} cm; net F of table 1, of the same twine, has openings "
         f"of {1e3 * opening:g} mm"
     )
     return judged(False, words, "the units are exchanged: the side is 20 cm, the opening 2.09 mm as in table 2")
@@ -76,7 +76,9 @@ def _lift(_runs: MatsubaraRuns) -> Finding:
     row = matsubara_net("G")
     net = Net.from_aperture(row.twine_diameter, row.aperture, solidity_listed=row.solidity)
     drag, lift = (float(item[0]) for item in net_law("matsubara").coefficients(np.zeros(1), 0.5, net, VISCOSITY))
-    return judged(abs(lift) < 0.01 * drag, f"lift {abs(lift):.0e}, drag {drag:.2f} on the outline, square to the flow")
+    return judged(
+        abs(lift) < 0.01 * drag, f"lift {abs(lift):.0e}, drag {drag:.2f} on the outline, perpendicular to the flow"
+    )
 
 
 def _falls(_runs: MatsubaraRuns) -> Finding:
@@ -248,7 +250,7 @@ STATEMENTS = (
     Statement("table", "2.1, table 1", "Table 1 lists twine, aperture, area and solidity of ten nets.", _table),
     Statement("sizes", "3.1, table 2", "The cage measures 20 mm (table 2) and has meshes of 2.1 cm (text).", _sizes),
     Statement("floats", "3.1, table 2", "Twelve floats of 4 cm carry 402 gf.", _floats),
-    Statement("lift", "2.2", "A net square to the flow has hardly any lift.", _lift),
+    Statement("lift", "2.2", "A net perpendicular to the flow has hardly any lift.", _lift),
     Statement("falls", "2.4, figure 4", "C_d falls with the Reynolds number from about 2 to about 0.6.", _falls),
     Statement(
         "scatter", "2.4, figures 3, 4", "Below Re = 100 the coefficients scatter, since the forces are small.", _scatter

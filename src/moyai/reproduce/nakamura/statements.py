@@ -86,7 +86,7 @@ def _waves_damp(runs: NakamuraRuns) -> Finding:
 
 
 def _prototype(runs: NakamuraRuns) -> Finding:
-    """Hold the prototype column of table 1 against the column of the model."""
+    """Compare the prototype column of table 1 with the column of the model."""
     body = runs.case.breakwater
     scale = 10.0 / 0.38
     assert body.draught is not None and body.centre_of_gravity is not None and body.roll_gyradius is not None

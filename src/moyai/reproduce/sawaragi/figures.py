@@ -22,7 +22,7 @@ def _record(number: str, record: Release, material: str, whole: SpanRecord | Non
     series = [curve("both cables, model A with drag", {"time": time[shown]}, record.motion.tension[shown])]
     caption = f"{SUM} Current 0.30 m/s, C_D = 1.2; model A: a cable without tension until it is taut."
     if whole is not None:
-        series.insert(0, curve("both cables, whole span let go slack", {"time": whole.time}, whole.tension, 1))
+        series.insert(0, curve("both cables, whole span released slack", {"time": whole.time}, whole.tension, 1))
         caption += " Whole span: gathered evenly between the supports at the release."
     return figure(
         number, f"release and snap, {material}", (Abscissa("time", "time from release", "s"),),

@@ -45,9 +45,9 @@ class Release:
     taut: float
     #: See ``taut``.
     rise: float
-    #: Sum of both cables [N].
+    #: Spike of the sum of both cables [N].
     spike: float
-    #: Sum of both cables [N].
+    #: Plateau of the sum of both cables [N].
     plateau: float
 
 
@@ -167,7 +167,7 @@ class SawaragiRuns:
     def span_released(
         self, total: float, cells: tuple[int, int], share: float = 0.0, duration: float = RELEASE, heavier: float = 1.0
     ) -> SpanRecord:
-        """Return the record of the whole span let go slack and at rest in the current, edges held in height.
+        """Return the record of the whole span released slack and at rest in the current, edges held in height.
 
         Parameters
         ----------

@@ -31,7 +31,8 @@ def _rise_first(runs: SawaragiRuns) -> Finding:
     words = ", ".join(f"{value:.2f}" for value in parts)
     return judged(
         parts[0] > 0.0 and bool(np.all(np.diff(parts) > 0.0)),
-        f"whole span let go slack: mean tension {words} N in the quarters of the {record.spike_time:.2f} s before the "
+        f"whole span released slack: mean tension {words} N in the quarters of the {record.spike_time:.2f} s before "
+        "the "
         f"spike, as the span is picked up from its supports; model A has no tension until taut",
     )
 
@@ -47,7 +48,7 @@ def _one_spike(runs: SawaragiRuns) -> Finding:
     count = record.spikes()
     return judged(
         count == 1,
-        f"whole span let go slack: {record.spike:.2f} N, then {record.plateau:.2f} N; peaks that rise by more than "
+        f"whole span released slack: {record.spike:.2f} N, then {record.plateau:.2f} N; peaks that rise by more than "
         f"half of the highest: {count}; contacts of model A above half of its highest: {_contacts(runs.line)}",
     )
 
@@ -277,12 +278,12 @@ STATEMENTS = (
     Statement(
         "statics",
         "4.4",
-        "An impact asks for the dynamics of the cable; its shape at rest and even acceleration are doubtful.",
+        "An impact needs the dynamics of the cable; its shape at rest and even acceleration are doubtful.",
         _statics,
     ),
     Statement("flat", "4.4", "The flat plate has too much added mass, since the skirt bulges.", _flat),
     Statement("stretches", "4.4", "Stretch of the skirt takes tension from the cables.", _stretches),
-    Statement("separate", "4.4", "Upper and lower cable have different impacts, which model A cannot tell.", _separate),
+    Statement("separate", "4.4", "Upper and lower cable have different impacts, which model A cannot give.", _separate),
     Statement("start", "4.4", "The skirt may be slower than the flow when it becomes taut.", _start_speed),
     Statement(
         "proportional", "4.5", "The impact tension is proportional to speed and depth of the skirt.", _proportional

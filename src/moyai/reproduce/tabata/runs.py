@@ -51,9 +51,9 @@ ROPES = {"890 kN/m": 890e3, "890 kN": 890e3 / 46.0}
 class Pulls:
     """Highest loads of a run of the span through the highest crest of the typhoon."""
 
-    #: Of an anchor rope, and of the wire through the floats [N].
+    #: Load of an anchor rope [N].
     rope: float
-    #: Of an anchor rope, and of the wire through the floats [N].
+    #: Load of the wire through the floats [N].
     wire: float
     #: Of the sheet [N/m].
     sheet: float
@@ -74,11 +74,11 @@ class TabataRuns:
 
     #: Synthetic.
     data: FieldCampaign
-    #: Both types through the chain of the paper.
+    #: New type through the chain of the paper.
     new: Blocks
-    #: Both types through the chain of the paper.
+    #: Conventional type through the chain of the paper.
     conventional: Blocks
-    #: What the span bears in the typhoon, a realisation each, by the stiffness of :data:`ROPES`.
+    #: Loads of the span in the typhoon, a realisation each, by the stiffness of :data:`ROPES`.
     typhoon: Mapping[str, tuple[Pulls, ...]]
     #: The same with one guessed value changed, by the words of the change, for a rope of 890 kN for a strain of one.
     guessed: Mapping[str, Pulls]

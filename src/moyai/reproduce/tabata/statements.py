@@ -149,7 +149,7 @@ def _factor(runs: TabataRuns) -> Finding:
     )
     return judged(
         paper[1] <= planted <= paper[2] and single[1] <= planted <= single[2], words,
-        f"1.7 T_1/10 stands for T_max, which is {ratio:.2f} T_1/10 here: a factor {(1.7 / ratio) ** 2:.2f} in M; the "
+        f"1.7 T_1/10 represents T_max, which is {ratio:.2f} T_1/10 here: a factor {(1.7 / ratio) ** 2:.2f} in M; the "
         f"largest of many scattered pulls is set against the wave of 1.8 H_1/3: a factor "
         f"{paper[0] / planted / (1.7 / ratio) ** 2:.2f}. Where the sea scatters as the campaign does, 0.2 by that rule "
         f"is {0.2 * planted / paper[0]:.2f} by single waves",
@@ -275,7 +275,7 @@ STATEMENTS = (
     Statement("factor", "4, figure 8", "M = 0.2 makes the error of the energy model least.", _factor),
     Statement("compared", "4, figure 9", "With M = 0.2 computed tensions are those measured.", _compared),
     Statement("flume", "4", "Flume tests gave M = 0.5.", _flume),
-    Statement("wire", "4", "The wire bears 0.6 of the anchor rope.", _wire),
+    Statement("wire", "4", "The wire has 0.6 of the strength of the anchor rope.", _wire),
     Statement(
         "highest",
         "3 (1), figure 3",
@@ -285,11 +285,11 @@ STATEMENTS = (
     Statement(
         "design-height",
         "3 (3)",
-        "The new type stood in more than the 2.5 m that the conventional one is designed for.",
+        "The new type survived more than the 2.5 m that the conventional one is designed for.",
         _design_height,
     ),
-    Statement("stands", "3 (3), 5", "The curtain stood in H_1/3 = 3.06 m.", _stands),
-    Statement("along", "5", "It stood since the high waves ran along it.", _along),
+    Statement("stands", "3 (3), 5", "The curtain survived H_1/3 = 3.06 m.", _stands),
+    Statement("along", "5", "It survived since the high waves travelled along it.", _along),
 )
 
 
@@ -308,12 +308,13 @@ def filled(runs: TabataRuns) -> tuple[FilledInput, ...]:
                     + f" kN{plain}"),
         FilledInput("rule by which the error is least", "mean of zero", "least relative error; least squares",
                     f"M = {least[0]:.3f}; {squares[0]:.3f} (taken: {runs.paper_factor()[0]:.3f})"),
-        FilledInput("what is fitted to what", "1.7 T_1/10 to 1.8 H_1/3 of a block, as the paper", "pull by pull to the "
+        FilledInput("fitted parameter and its data", "1.7 T_1/10 to 1.8 H_1/3 of a block, as the paper", "pull by "
+            "pull to the "
                     "wave that made it", f"M = {runs.energy_factor[0]:.3f} (taken: {runs.paper_factor()[0]:.3f})"),
         *_guesses(runs),
         FilledInput("the record", "a synthetic campaign of "
                     f"{len(runs.new)} blocks, its relations planted, 15 % scatter", "other seeds",
-                    "intervals stand with each number"),
+                    "intervals are given with each number"),
     )  # fmt: skip
 
 
@@ -351,8 +352,8 @@ def _guesses(runs: TabataRuns) -> Iterator[FilledInput]:
                       f"{200.0 * share:.0f} %, {part}{taken}")  # fmt: skip
     wire = float(np.mean([one.shares(runs.case.curtain.strengths)["wire"] for one in runs.typhoon["890 kN"]]))
     yield FilledInput(
-        "what loads are held against",
-        "the strength itself: whether it stands",
+        "what loads are compared with",
+        "the strength itself: whether it is sufficient",
         "a factor of safety of 3 on the wire, as in a design",
         f"wire {300.0 * wire:.0f} % (taken: {100.0 * wire:.0f} %)",
     )

@@ -59,9 +59,9 @@ class FloatingUnit:
     breakwater: Breakwater
     #: Wetted section at rest.
     section: Section
-    #: At rest [m, rad].
+    #: Draught at rest [m].
     draught: float
-    #: At rest [m, rad].
+    #: Heel at rest [rad].
     heel: float
     #: Mass of the unit [kg].
     mass: float
@@ -409,9 +409,10 @@ def _notices(unit: FloatingUnit) -> tuple[Notice, ...]:
             Notice(
                 "heel-at-rest",
                 f"{unit.name}: the unit rests with a heel of {math.degrees(unit.heel):.2f} degrees",
-                value=abs(math.degrees(unit.heel)),
-                limit=math.degrees(HEEL_LIMIT),
+                value=abs(unit.heel),
+                limit=HEEL_LIMIT,
                 remedy="trim the ballast or the lines",
+                unit="rad",
             )
         )
     if unit.statics.metacentric_height <= 0.0:

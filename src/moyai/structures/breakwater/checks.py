@@ -34,10 +34,11 @@ def check_problem(problem: BreakwaterProblem) -> tuple[Notice, ...]:
             notices.append(
                 Notice(
                     "oblique-heading",
-                    f"{sea.name}: waves meet the unit at {math.degrees(sea.heading):.0f} degrees, where its length and "
-                    "ends matter more than its section",
-                    value=math.degrees(abs(sea.heading)),
-                    limit=math.degrees(SHORT_CREST_ANGLE),
+                    f"{sea.name}: waves reach the unit at {math.degrees(sea.heading):.0f} degrees, where its length "
+                    "and ends matter more than its section",
+                    value=abs(sea.heading),
+                    limit=SHORT_CREST_ANGLE,
+                    unit="rad",
                 )
             )
         if sea.heading != 0.0 and "time" in problem.analyses:

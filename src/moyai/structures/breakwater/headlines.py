@@ -314,7 +314,7 @@ def _roll(domain: str, data: xr.Dataset, level: str, sea: str, frequency: xr.Dat
     band = seeds(scatter) if scatter.size else storms(value, 0.0, _peak_factor(data, _ROLL))
     band = _with_lines_in_motion(value, band, data, _ROLL)
     if frequency is not None and "significant_motion_low" in frequency:
-        # the frequency domain tells by how much damping moves roll; the time domain is run at its nominal value
+        # the frequency domain gives by how much damping moves roll; the time domain is run at its nominal value
         own = float(frequency.variables["significant_motion"].values[2])
         low, high = (float(frequency.variables[f"significant_motion_{end}"].values[2]) / own for end in ("low", "high"))
         if math.isfinite(low + high):

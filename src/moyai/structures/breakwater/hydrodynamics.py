@@ -221,7 +221,7 @@ def solve_unit(
     store: DatasetStore | None = None,
     progress: Progress = silent,
 ) -> UnitHydrodynamics:
-    """Compute the coefficients of the unit for everything that the case asks for.
+    """Compute the coefficients of the unit for everything that the case requires.
 
     Parameters
     ----------
@@ -245,7 +245,7 @@ def solve_unit(
     by_heading = [item.scaled_to(length) for item in apart]
     checks, notices, turned = list(normal.checks), list(normal.notices), None
     if len(oblique):
-        # An oblique heading has matrices of its own at every frequency: only what the case asks for
+        # An oblique heading has matrices of its own at every frequency: only what the case requires
         chosen = oblique_frequencies(unit, problem)
         turned, found_checks = _oblique(unit, chosen, oblique, store, progress)
         by_heading.extend(item.scaled_to(length) for item in Hydrodynamics.of_headings(turned))

@@ -29,7 +29,7 @@ def beyond_range(data: xr.Dataset, statics: xr.Dataset | None) -> NDArray[np.boo
     data : xarray.Dataset
         Regular sea in time.
     statics : xarray.Dataset or None
-        Of the same water level; tells chains from springs, which are linear at any tension.
+        Of the same water level; distinguishes chains from springs, which are linear at any tension.
     """
     out = np.zeros(data.sizes["period"], dtype=bool)
     if "damping_work" in data and "dissipation" in data:
@@ -96,7 +96,7 @@ class LargestOfPeriods:
             names = ", ".join(f"{period:.3g} s" for period in periods[out])
             said = (
                 f"at T = {names} the time domain is out of its range (chains at rest at every instant, or energy that "
-                "damping does not explain) and the frequency domain stands in"
+                "damping does not explain) and the frequency domain is used"
             )
         found = []
         for row in np.flatnonzero(np.isfinite(table)):

@@ -105,7 +105,8 @@ def unit_memory(model: FrequencyModel, *, convolution: bool = False) -> UnitMemo
             memory = StateSpaceMemory.of(fit)
             checks.extend(fit.checks)
             message = (
-                f"{2 * len(fit.poles)} states or fewer carry the memory of the water, its frequency response within "
+                f"{2 * len(fit.poles)} states or fewer represent the radiation memory, the fitted frequency response "
+                "within "
                 f"{fit.error:.1e}; {plan.reason}"
             )
             if fit.error > COARSE:
@@ -151,7 +152,7 @@ def _causality(unit: FloatingUnit, checks: tuple[IdentityCheck, ...]) -> tuple[l
             advice = Notice(
                 "gap-memory",
                 f"{unit.name}: the water in the gap resonates too sharply for a memory in time",
-                remedy="give structure.gap_damping_lid (0.01 to 0.1), or leave the time domain out",
+                remedy="give a damping lid in the gap (0.01 to 0.1), or leave the time domain out",
             )
             return list(checks), [advice]
         return list(checks), []
@@ -163,13 +164,13 @@ def _causality(unit: FloatingUnit, checks: tuple[IdentityCheck, ...]) -> tuple[l
         f"by up to {100.0 * worst:.1f} % of their largest values",
         value=worst,
         severity="information" if worst < 0.05 else "warning",
-        remedy="trust the frequency domain near the gap resonance, or lower the lid",
+        remedy="use the frequency domain near the gap resonance, or lower the lid",
     )
     return kept, [reported]
 
 
 def _functions(unit: FloatingUnit, beam: Hydrodynamics) -> tuple[MemoryFunctions, MemoryPlan]:
-    """Return the memory functions of the unit on a time grid that the damping itself asks for."""
+    """Return the memory functions of the unit on a time grid that the damping itself requires."""
     planar = beam.has_far_field
     start = damping_start(unit) if planar else "zero"
     steady = None

@@ -72,7 +72,7 @@ class MooringLine:
     #: Whether the line is in motion in the time domain from the start, with drag, inertia and slack.
     dynamic: bool = False
     #: What each segment is made of, for a line in motion; its internal damping is chosen later. Empty where the
-    #: segments do not tell enough: the line then stays at rest at every instant.
+    #: segments do not give enough: the line then stays at rest at every instant.
     bar_types: tuple[BarType, ...] = ()
     #: Mass [kg] and volume [m3] of each clump, for a line in motion.
     clump_bodies: tuple[tuple[float, float], ...] = ()

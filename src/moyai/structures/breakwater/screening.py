@@ -13,7 +13,9 @@ from numpy.typing import ArrayLike
 from moyai.core.arrays import Array
 from moyai.core.validity import Notice
 
-RUOL_CENTRE = 0.7919  # chi_0 of Ruol et al. (2013), quoted from memory: marked unconfirmed in the notices
+RUOL_CENTRE = (
+    0.7919  # chi_0 of Ruol et al. (2013), not compared with the publication: marked unconfirmed in the notices
+)
 RUOL_WIDTH = 0.1922  # sigma of Ruol et al. (2013), likewise
 RUOL_BEAM_FACTOR = 0.35  # added mass of heave as a depth of 0.35 beams, likewise
 

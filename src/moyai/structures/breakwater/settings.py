@@ -81,10 +81,10 @@ class LineDynamics(Block):
         default=None, description="Normal damping of the bed per contact area, Pa s/m. Default: half of critical."
     )
     slack_fraction: NonNegativeNumber = Field(
-        default=0.05, description="Tension over that at rest under which a line counts as slack. Default: 0.05."
+        default=0.05, description="Tension over that at rest under which a line is taken as slack. Default: 0.05."
     )
     snap_fraction: PositiveNumber = Field(
-        default=3.0, description="Peak over the tension at rest from which a contact counts as a snap. Default: 3."
+        default=3.0, description="Peak over the tension at rest from which a contact is a snap. Default: 3."
     )
     sensitivity: Truth = Field(
         default=False,

@@ -149,11 +149,11 @@ def slow_drift(
 class CombinedExtremes:
     """Largest of each line, mean, slow drift and waves together, the line on its exact shape."""
 
-    #: [N]; shape (lines,).
+    #: Tension at the fairlead [N]; shape (lines,).
     tension: Array
-    #: [N]; shape (lines,).
+    #: Uplift at the anchor [N]; shape (lines,).
     anchor_vertical: Array
-    #: [N]; shape (lines,).
+    #: Horizontal tension at the anchor [N]; shape (lines,).
     anchor_horizontal: Array
     #: Length on the bed at that instant [m]; shape (lines,).
     grounded: Array

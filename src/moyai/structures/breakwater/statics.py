@@ -191,7 +191,7 @@ def mooring_dataset(unit: FloatingUnit, offsets: Array | None) -> xr.Dataset:
     ----------
     unit : FloatingUnit
     offsets : ndarray or None
-        [m]; by default as far as the stiffest line allows before it bears a hundred times its tension at rest, or its
+        [m]; by default as far as the stiffest line allows before it carries a hundred times its tension at rest, or its
         breaking load.
     """
     import xarray as xr

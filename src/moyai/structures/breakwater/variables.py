@@ -68,7 +68,10 @@ VARIABLES: dict[str, tuple[str, str]] = {
     "transmission_coefficient": ("1", "transmission coefficient C_T"),
     "dissipation": ("1", "dissipated fraction of the incident energy flux E_L"),
     "damping_work": ("1", "work of all damping on the first harmonic, over the incident energy flux"),
-    "energy_to_harmonics": ("1", "energy that lines carry from the first harmonic into others, over the incident flux"),
+    "energy_to_harmonics": (
+        "1",
+        "energy that lines transfer from the first harmonic into others, over the incident flux",
+    ),
     "harmonic_radiation": ("1", "energy radiated in a higher harmonic of the motion, over the incident energy flux"),
     "drift_coefficient": ("1", "drift coefficient F*"),
     "mean_drift_force": ("N", "mean drift force on the unit along x"),
@@ -116,7 +119,7 @@ VARIABLES: dict[str, tuple[str, str]] = {
     "maximum_anchor_vertical_tension_of_realisation": ("N", "largest uplift at the anchor in each realisation"),
     "maximum_anchor_horizontal_tension_of_realisation": (
         "N",
-        "largest level pull on the anchor in each realisation",
+        "largest horizontal tension at the anchor in each realisation",
     ),
     "maximum_excursion_of_realisation": ("m", "largest excursion from rest in each realisation (roll: rad)"),
     "maximum_motion": ("m", "largest excursion from the mean (roll: rad)"),
@@ -161,7 +164,7 @@ VARIABLES: dict[str, tuple[str, str]] = {
     "slack_time": ("s", "time that the line is slack"),
     "longest_slack": ("s", "longest time that the line is slack at once"),
     "contact_count": ("1", "times that the slack line comes taut"),
-    "snap_count": ("1", "contacts whose peak counts as a snap"),
+    "snap_count": ("1", "contacts whose peak is that of a snap"),
     "largest_snap": ("N", "highest peak of a snap"),
     "least_rise_time": ("s", "shortest rise of a snap from a tenth to nine tenths"),
     "peak_change_twice_the_bars": ("1", "change of the largest tension with twice the bars"),
@@ -173,7 +176,7 @@ VARIABLES: dict[str, tuple[str, str]] = {
     "contact_peak": ("N", "highest tension until it is slack again"),
     "peak_time": ("s", "time of that"),
     "rise_time": ("s", "rise from a tenth to nine tenths of the peak"),
-    "is_snap": ("1", "whether the peak counts as a snap"),
+    "is_snap": ("1", "whether the peak is that of a snap"),
 }
 
 # Texts, and numbers that count the entries along a dimension

@@ -1,4 +1,4 @@
-"""Damping of a unit beyond wave radiation: what the case gives or the section tells, its equivalents, its band."""
+"""Damping of a unit beyond wave radiation: what the case gives or the section gives, its equivalents, its band."""
 
 from __future__ import annotations
 

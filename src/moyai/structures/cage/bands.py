@@ -21,7 +21,7 @@ from moyai.structures.cage.settling import by_period, is_settled, scatters, stil
 if TYPE_CHECKING:
     import xarray as xr
 
-TOO_SHORT = "one seed, too short to tell the scatter of its maximum"
+TOO_SHORT = "one seed, too short to show the scatter of its maximum"
 UNSETTLED = "regular waves whose periods do not repeat yet"
 NO_LAWS = "without the net laws in the sea, whose runs failed"
 _SAME_LAWS = "the same net laws as for the volume"
@@ -73,7 +73,7 @@ class LevelState:
     cage: xr.Dataset
     statics: xr.Dataset
     laws: xr.Dataset | None
-    #: The laws in the governing waves, and the place of the wave at hand.
+    #: The laws in the governing waves, and the place of the wave given.
     law_runs: AllRuns = field(default_factory=dict)
     wave: str = ""
 
@@ -217,7 +217,7 @@ def reach(
 def alone(item: Headline) -> Headline:
     """Return a number that is known as a bound alone as one: more is to come, of a volume less.
 
-    That of one seed too short to tell its scatter, of waves that have not settled, without the laws in the sea.
+    That of one seed too short to show its scatter, of waves that have not settled, without the laws in the sea.
     """
     if item.band is None or not any(words in item.band.of for words in (TOO_SHORT, UNSETTLED, NO_LAWS)):
         return item

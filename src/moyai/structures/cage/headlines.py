@@ -47,7 +47,8 @@ NOT_JUDGED = Headline(
 )  # fmt: skip
 _OTHER_DIRECTIONS = replace(
     NOT_JUDGED, text=f"{NOT_JUDGED.text}, other directions of current and waves",
-    detail="along the diagonal of a frame an anchor may bear half as much again as along its side, and less volume is "
+    detail="along the diagonal of a frame an anchor may take half as much load again as along its side, and less "
+        "volume is "
     "left: run both headings",
 )  # fmt: skip
 
@@ -298,7 +299,7 @@ def _dynamic_tension(run: xr.Dataset, line: int, where: str, state: LevelState |
         details.append(f"slack for {100.0 * slack:.2g} % of the time" + (f", {snaps} snaps" if snaps else ""))
     series = run["line_tension_peak_since_row"].values[:, line]
     name = str(run["line"].values[line])
-    # what a line that bears little still rises by counts against the one nearest to its breaking load
+    # what a line that carries little still rises by counts against the one nearest to its breaking load
     share = run["utilisation"].values
     scale = value * float(share.max()) / max(float(share[line]), 1e-300)
     band = band_in_sea(state, "line_tension_maximum", run, value, series, line, scale)

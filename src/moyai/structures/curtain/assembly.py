@@ -66,7 +66,7 @@ class LevelCurtain:
         return math.sqrt(square)
 
     def slack_float_load(self, toe_factor: float = 1.0) -> float:
-        """Return what the floats bear at slack water, per length [N/m], with a factor on the weight of the toe [-]."""
+        """Return what the floats carry at slack water, per length [N/m], with a factor on the weight of the toe [-]."""
         skirt, floats = self.hanging.skirt, self.hanging.floats
         toe = skirt.toe_load if skirt.length < self.water.depth else 0.0
         hanging = max(skirt.submerged_weight * self.depth + toe_factor * toe, 0.0)
@@ -253,7 +253,7 @@ def _reference_speed(profile: CurrentProfile, depth: float) -> float:
     speed = surface if surface > 1e-3 * largest else largest
     if speed <= 0.0:
         raise InputError(
-            "the current stands still over the depth of the skirt",
+            "the current is zero over the depth of the skirt",
             parameter="current",
             remedy="give its speed, or leave 'current' out",
         )

@@ -14,7 +14,7 @@ from moyai.structures.curtain.statics.planning import CURRENT_RULES
 from moyai.tables.curtain_classes import CurtainClass, mildest_class
 
 _MANUALS = "state manuals (Indian River, Florida; Virginia 3.27)"
-_TOE = "ERDC TN-DOER-E21 (2005), from memory"
+_TOE = "ERDC TN-DOER-E21 (2005), not compared with the original publication"
 
 
 def check_class(
@@ -61,7 +61,7 @@ def check_class(
                 value,
                 limit,
                 "warning",
-                "choose another class" if upper else "give what the class asks for",
+                "choose another class" if upper else "give what the class requires",
                 source,
             )
         )

@@ -29,7 +29,7 @@ def model_of(source: str) -> str:
 def governing_load(row: Row, roles: Iterable[ModelRole]) -> dict[str, float | str]:
     """Return ``governing_load``, ``governing`` and ``load_bound`` of a component [eq:curtain-hierarchy].
 
-    The whole span bears current, waves and snaps together, so nothing is added to it, and it governs where it was run.
+    The whole span includes current, waves and snaps together, so nothing is added, and it governs where it was run.
     Otherwise the larger of wave and impact is added to the steady load; where the model behind it is only a bound, the
     load is one too. A component that the whole span does not give keeps the bound of the others.
 
@@ -54,7 +54,7 @@ def governing_load(row: Row, roles: Iterable[ModelRole]) -> dict[str, float | st
         # a bound stands at its upper end, whatever a value comes to
         counted["impact"] = max(counted["impact"], float(row.get("impact_high", counted["impact"])))
     what, more = max(counted.items(), key=lambda item: item[1], default=("", 0.0))
-    # a snap that is run and loads the component in a way that the data do not tell leaves a bound from below
+    # a snap that is run and loads the component in a way that the data do not show leaves a bound from below
     missing = "at least" if any(math.isnan(float(value)) for value in added.values()) else ""
     if not what:
         return {"governing_load": steady, "governing": "steady", "load_bound": missing}

@@ -55,7 +55,7 @@ _NOT_JUDGED = Headline(
     detail="ageing, fouling and fatigue of the sheet and its ropes, a curtain with one anchor line lost, stress at "
     "seams and eyelets, and the holding of an anchor in its soil are not computed",
 )  # fmt: skip
-#: Key that asks for more realisations.
+#: Key for more realisations.
 _MORE = "settings.waves.realisations"
 #: Groups that a level has where waves were run.
 _IN_WAVES = ("waves", "dynamic", "weaker_currents")
@@ -63,7 +63,7 @@ _WEAKER = (
     "waves in currents weaker than that of the case are computed at half of it alone, where the whole span is run by "
     "default"
 )
-_MISSING = "'settings.impact.chord' and a skirt that stretches, or 'dynamic' in 'analyses'"
+_MISSING = "the chord of the impact and a skirt that stretches, or 'dynamic' in 'analyses'"
 
 
 @dataclass(frozen=True)
@@ -109,7 +109,7 @@ class _Load:
         high = self.value
         if self.band is not None:
             high = max(high, self.band.high) if self.band.decides else max(high, *(self.band.judged or ()))
-        # a bound from below proves strength only where its band goes on beyond it, as criteria are judged
+        # a bound from below proves strength only where its band continues beyond it, as criteria are judged
         known = self.bound != "at least" or (self.band is not None and self.band.beyond_bound)
         return known and high * self.number("safety_factor") <= self.number("capacity")
 
@@ -269,7 +269,7 @@ def _runs_of(
 
 
 def _line(load: _Load) -> str:
-    """Return the component of the whole span that bears a load: that of an anchor is its line, turned."""
+    """Return the component of the whole span that carries a load: that of an anchor is its line, turned."""
     return "anchor line" if load.component == "anchor" else load.component
 
 
@@ -282,7 +282,7 @@ def _at_rest_words(load: _Load, groups: Groups) -> str:
     name = _STEADY_NAMES.get(load.component, "")
     current = math.nan if statics is None else at_rest(statics, name)
     if load.component.startswith("anchor") and steady > current * (1.0 + 1e-9):
-        return f"steady {kilo(steady)}: the pretension, and what the line bears of the {kilo(current)} of the current"
+        return f"steady {kilo(steady)}: the pretension, and the part of the line in the {kilo(current)} of the current"
     return f"steady {kilo(steady)}"
 
 
@@ -411,7 +411,7 @@ def _impact_band(groups: Groups, load: _Load) -> Band | None:
     if not (math.isfinite(low) and math.isfinite(high)):
         return None
     high = max(high, reached if math.isfinite(reached) else high)
-    of = "impact: the models that count, start speed over drag and place of release"
+    of = "impact: the models used for design, start speed over drag and place of release"
     value = load.value
     of += "" if steady is None else f"; steady part: {steady.of}"
     return Band(min(low, value), max(high, value), of)
@@ -472,7 +472,7 @@ def _mesh_band(table: xr.Dataset, load: _Load, value: float) -> Band | None:
         return Band(low, high, of, decides=False, judged=(low, factor * ceiling), beyond_bound=True, more=more)
     if count < 2:
         high = max(high, factor * judged)
-        return Band(low, high, "meshes and events, the larger counts; drag at its value")
+        return Band(low, high, "meshes and events, the larger is used; drag at its value")
     of = f"{count} realisations and two meshes; drag at its value; judged at the 95 % end of the larger mean"
     ends = (low, factor * judged)
     return Band(low, high, of, decides=False, judged=ends, realisations=count, more=_MORE)
@@ -523,7 +523,7 @@ def _wave_band(groups: Groups, load: _Load) -> Band | None:
     upper = max(whole + more, reached if math.isfinite(reached) else 0.0)
     kind, _, sea = load.words("wave_source").partition(", ")
     table = groups.get(f"/{load.level}/waves/{sea}")
-    part = "steady part: drag, weights, flow under the toe and what the skirt's ends hold"
+    part = "steady part: drag, weights, flow under the toe and end restraint of the skirt"
     if kind != "slack and taut cycles" or table is None:
         return Band(whole - less, upper, part) if upper > whole else None
     own = SeaCycles.of(table)
@@ -573,7 +573,7 @@ def _steady_band(groups: Groups, load: _Load) -> Band | None:
         return None if band is None or not value > 0.0 else band.scaled(load.number("steady_load") / value)
     band = statics_band(statics, _STEADY_NAMES.get(load.component, ""))
     if band is not None and load.component.startswith("anchor"):
-        # a pretension bears part of it
+        # a pretension carries part of it
         band = replace(band, low=load.number("steady_low"), high=load.number("steady_high"))
     return band
 

@@ -119,8 +119,8 @@ def _upright(unit: LevelCurtain, surface: float) -> tuple[Role, str, float]:
     if not held_at_both(curtain):
         return (
             "bound",
-            "the toe is free: nothing stops the lower half of the plate, which hangs all of its water on the upper "
-            f"cable; {left}",
+            "the toe is free: nothing stops the lower half of the plate; the upper cable stops all of its water; "
+            f"{left}",
             share,
         )
     if share < STRAIGHT:
@@ -163,10 +163,14 @@ def upright_in(unit: LevelCurtain, own: float) -> float:
 def _crest(asked: set[Analysis]) -> ModelRole:
     of = "drag in waves"
     if "dynamic" in asked:
-        return ModelRole(CREST, "comparison", of, "the whole span is run; a steady drag knows no snap")
+        return ModelRole(CREST, "comparison", of, "the whole span is run; a steady drag does not include snap loads")
     if "waves" in asked:
-        return ModelRole(CREST, "governs", of, "a steady drag knows no snap: the larger of it and the cycles counts")
-    return ModelRole(CREST, "governs", of, "nothing else is run in waves; a steady drag knows no snap: run 'waves' too")
+        return ModelRole(
+            CREST, "governs", of, "a steady drag does not include snap loads: the larger of it and the cycles is used"
+        )
+    return ModelRole(
+        CREST, "governs", of, "nothing else is run in waves; a steady drag does not include snap loads: run 'waves' too"
+    )
 
 
 def role_of(roles: Iterable[ModelRole], model: str) -> Role:

@@ -14,7 +14,7 @@ from moyai.structures.curtain.steady_headlines import Groups, at_rest, statics_b
 if TYPE_CHECKING:
     import xarray as xr
 
-REMEDY = "add 'dynamic' to 'analyses', with settings.dynamic.sheet_mass, for the value"
+REMEDY = "add 'dynamic' to 'analyses', with the mass of the sheet, for the value"
 
 #: Parts that an impact loads
 _STRUCK = ("upper cable", "lower cable", "sheet", "joint", "anchor line", "anchor")
@@ -127,17 +127,17 @@ def limit_headlines(groups: Groups, levels: Sequence[str], span_holds: Callable[
             continue
         if band is not None and band.low < limit:
             # what is held is what holds at the unfavourable end
-            details.insert(0, f"{limit:.3g} {unit} at the values themselves; {band.of}")
+            details.insert(0, f"{limit:.3g} {unit} at nominal values; {band.of}")
             limit = band.low
         if waves and table.attrs.get("with_snaps"):
-            # realisations of a sea do not tell a third digit
+            # realisations of a sea do not give a third digit
             limit = _two_digits(limit)
             details += _of_other_seeds(table, limit)
         period = float(table.attrs.get("design_limit_period", math.nan))
         if key != "speed_limit" and math.isfinite(period) and limit > 0.0:
-            # the period of the height that is printed, not of the one at the values themselves
+            # the period of the height that is printed, not of the one at nominal values
             period *= math.sqrt(limit / found_at) if table.attrs.get("period_follows_height", 1) else 1.0
-            details.append(f"in waves of {period:.3g} s, as settings.limits takes the period with the height")
+            details.append(f"in waves of {period:.3g} s, as the limits take the period with the height")
         own = _number(table, "surface_speed")
         if key == "speed_limit" and own > 0.0 and not said:
             details.append(f"{limit / own:.2f} of the current of the case, {own:.3g} m/s")
@@ -165,7 +165,7 @@ def _of_other_seeds(table: xr.Dataset, limit: float) -> list[str]:
         return []
     return [
         f"other seeds may give {scatter:.2g} m less or more (one standard deviation with {count} realisations): "
-        "more by settings.waves.realisations"
+        "run more realisations"
     ]
 
 
@@ -223,7 +223,7 @@ def _all_oblique(groups: Groups, level: str) -> str:
         return ""
     return (
         f"the seas of the case travel at {math.degrees(nearest):.0f} degrees to the normal and more: one within "
-        f"{math.degrees(FACING):.0f} degrees of it, in which the whole span holds, tells a height"
+        f"{math.degrees(FACING):.0f} degrees of it, in which the whole span holds, gives a height"
     )
 
 

@@ -62,21 +62,21 @@ class AnchorLines:
             raise InputError(
                 "anchor lines in water of infinite depth reach no bed",
                 parameter="water_depth",
-                remedy="give the depth, or 'slope_deg' of the lines",
+                remedy="give the depth, or the slope of the lines",
             )
         if not self.length > depth:
             raise InputError(
                 f"an anchor line of {self.length:g} m in water of {depth:g} m",
                 parameter="anchors.length",
                 allowed=f"more than {depth:g} m",
-                remedy="lengthen the line, or give 'slope_deg'",
+                remedy="lengthen the line, or give its slope",
             )
         return math.asin(depth / self.length)
 
 
 @dataclass(frozen=True)
 class Strengths:
-    """What the components bear; :data:`UNJUDGED` where the case says nothing."""
+    """What the components carry; :data:`UNJUDGED` where the case says nothing."""
 
     #: ``upper_cable``, ``lower_cable``, ``sheet``, ``joint``, ``anchor_line``, ``anchor``: Cables, joint, line, holding
     #: force of the anchor [N]; sheet [N/m].
@@ -207,7 +207,7 @@ class AnchorLoadSettings:
     height_ratio: float = 1.8
     #: Direction rule; one of "paper", "normal", "none".
     rule: DirectionRule = "paper"
-    #: Whether the steady tension counts; the paper leaves it out.
+    #: Whether the steady tension is included; the paper leaves it out.
     pretension: bool = True
 
     def model(self, rope_stiffness: float, line_factor: float = 1.0) -> EnergyModel:
@@ -257,7 +257,7 @@ class CurtainSettings:
     anchor_loads: AnchorLoadSettings | None = None
     limits: LimitSettings = field(default_factory=LimitSettings)
     dynamic: DynamicSettings | None = None
-    #: Leave out what only tells how far the statics vary: ends of the drag, band of the steady load, largest spacing.
+    #: Leave out what only gives how far the statics vary: ends of the drag, band of the steady load, largest spacing.
     nominal: bool = False
 
     @property

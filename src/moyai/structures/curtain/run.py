@@ -275,7 +275,7 @@ def _result(problem: CurtainProblem, collected: _Collected) -> Result:
     ]
     fulfilled = "all identities hold" if collected.checks else "done; these analyses have no identity to hold"
     if any(notice.code == "span-mesh" for notice in collected.notices):
-        fulfilled += "; peaks of the whole span move with the mesh, see the warning"
+        fulfilled += "; peaks of the whole span change with the mesh, see the warning"
     return collected.close(
         VOCABULARY,
         attributes,

@@ -31,7 +31,7 @@ def statics_band(statics: xr.Dataset, name: str) -> Band | None:
     if all(end in statics for end in ends):
         low, high = (float(statics[end]) for end in ends)
         return (
-            Band(low, high, "drag, weights, flow under the toe and what the skirt's ends hold") if low < high else None
+            Band(low, high, "drag, weights, flow under the toe and end restraint of the skirt") if low < high else None
         )
     if name not in statics:
         return None
@@ -135,7 +135,7 @@ class _Slack(NamedTuple):
 
 
 def _at_slack(statics: xr.Dataset, key: str) -> _Slack | None:
-    """Return a number at slack water; None where the case does not tell it."""
+    """Return a number at slack water; None where the case does not give it."""
     value = float(statics[f"slack_{key}"]) if f"slack_{key}" in statics else math.nan
     if math.isnan(value):
         return None
@@ -175,7 +175,7 @@ def _other_models(name: str, statics: xr.Dataset, value: float) -> str:
         return ""
     drowning = float(statics["drowning_speed"])
     return (
-        f"they drown at {drowning:.3g} m/s, their own drag counted, searched up to 10 m/s"
+        f"they submerge at {drowning:.3g} m/s, their own drag counted, searched up to 10 m/s"
         if math.isfinite(drowning)
-        else "no current in the range searched, up to 10 m/s, drowns them"
+        else "no current in the range searched, up to 10 m/s, submerges them"
     )

@@ -33,10 +33,10 @@ def require_in_water(member: StraightMember, water: Water, name: str) -> None:
     """
     if member.lowest >= 0.0:
         raise InputError(
-            f"the member stands above the still water of {name}: its lowest point is at z = {member.lowest:+.3g} m",
+            f"the member is above the still water of {name}: its lowest point is at z = {member.lowest:+.3g} m",
             parameter="start",
             allowed="at least one end below still water",
-            remedy="z counts upwards from datum; heights below it are negative",
+            remedy="z is measured upwards from datum; heights below it are negative",
         )
     # the rim at the foot of a leaning member dips into the bed; its axis must not, nor its whole underside
     ends = (member.start[2], member.end[2])
@@ -57,7 +57,7 @@ def member_notices(problem: MemberProblem, member: StraightMember) -> tuple[Noti
         notices.append(
             Notice(
                 "circulation-with-current",
-                "no measurement tells how a current changes the circulation; it is formed from the waves alone",
+                "no measurement shows how a current changes the circulation; it is formed from the waves alone",
                 remedy="compare with 'purpose: extreme', which leaves it out",
             )
         )
@@ -87,7 +87,7 @@ def member_notices(problem: MemberProblem, member: StraightMember) -> tuple[Noti
         notices.append(
             Notice(
                 "coefficients-unconfirmed",
-                "tabulated drag coefficients were written down from memory of their sources",
+                "tabulated drag coefficients were not compared with the original publications",
                 severity="information",
                 remedy="check them against the source named in the table before design use",
             )
@@ -98,7 +98,7 @@ def member_notices(problem: MemberProblem, member: StraightMember) -> tuple[Noti
 def wave_notices(
     problem: MemberProblem, member: StraightMember, wave: MemberWave, found: WaveForces
 ) -> tuple[Notice, ...]:
-    """Hold one wave against slenderness and the range of the circulation law."""
+    """Compare one wave with slenderness and the range of the circulation law."""
     notices = list(found.notices)
     if isinstance(wave.flow, NonlinearFlow):
         notices.extend(wave.flow.wave.notices())

@@ -175,7 +175,7 @@ def _tail(wave: MemberWave, values: np.ndarray) -> np.ndarray:
 
 def time_dataset(wave: MemberWave, found: WaveForces) -> xr.Dataset:
     """Return the time series of one wave."""
-    # at the end that bears most, and where the moment is largest
+    # at the most loaded end, and where the moment is largest
     size = np.linalg.norm(_tail(wave, found.held.sum(axis=0)), axis=2).max(axis=0)
     end, station = int(np.argmax(size[:2])), 2 + int(np.argmax(size[2:]))
     parts = {}

@@ -126,7 +126,7 @@ def headlines_of(problem: MemberProblem, groups: Mapping[str, xr.Dataset]) -> tu
         )  # fmt: skip
     ends, bending = _largest(groups, "end_force"), _largest(groups, "bending_moment")
     held = held_at(problem.support)
-    # a fixed end bears the whole force, which stands above
+    # a fixed end carries the whole force, which stands above
     if ends is not None and problem.support == "both_ends":
         end = Headline(
             "end_force", "largest force at an end", ends.value, "N", ends.where, model,
@@ -174,7 +174,7 @@ def _range_notices(problem: MemberProblem, found: _Largest) -> Iterator[Notice]:
     shares = dict(zip(_CAUSES, _shares(found), strict=True))
     for cause, measured in zip(("drag", "inertia", "lift"), _ranges(problem, found), strict=False):
         if found.steady:
-            continue  # a law of steady flow speaks of Reynolds numbers, and says so where it is read
+            continue  # a law of steady flow is for Reynolds numbers, and says so where it is read
         low, high = measured.keulegan_carpenter
         number = found.number(_number_of(measured))
         if abs(shares[cause]) < DECIDES or low <= number <= high:

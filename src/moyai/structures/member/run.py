@@ -51,7 +51,7 @@ def run(problem: MemberProblem, progress: Progress = silent) -> Result:
     Raises
     ------
     InputError
-        When the member is above the surface, below the bed, or a coefficient law does not speak of its section.
+        When the member is above the surface, below the bed, or a coefficient law is not for its section.
     """
     collected = Collected()
     for name, level in problem.environment.water_levels:

@@ -43,7 +43,7 @@ class SurfaceEffect:
 
 
 def can_be_evaluated(member: StraightMember, heading: float) -> str:
-    """Return why the two-dimensional theory does not speak of a member, empty where it does."""
+    """Return why the two-dimensional theory is not for a member, empty where it does."""
     if member.inclination > LARGEST_INCLINATION:
         return "the member is not horizontal"
     if member.highest >= 0.0:

@@ -308,7 +308,7 @@ def _add_net(builder: NetworkBuilder, net: NetPlan, level: float, water: Water) 
         distance = float(np.linalg.norm(grid[second] - grid[first]))
         if distance <= 0.0:
             raise InputError(
-                f"knots {first} and {second} stand at the same place",
+                f"knots {first} and {second} are at the same place",
                 parameter=f"nets.{net.name}.corners",
                 remedy="give four different corners, once around the net",
             )
@@ -338,9 +338,7 @@ def _add_sheet(builder: NetworkBuilder, sheet: SheetPlan, level: float, water: W
     high = 0.5 * float(np.linalg.norm(d - a) + np.linalg.norm(c - b)) * sheet.fullness
     wide = 0.5 * float(np.linalg.norm(b - a) + np.linalg.norm(c - d)) * sheet.fullness
     if not (high > 0.0 and wide > 0.0):
-        raise InputError(
-            "two corners stand at the same place", parameter=parameter, remedy="give four different corners"
-        )
+        raise InputError("two corners are at the same place", parameter=parameter, remedy="give four different corners")
     try:
         builder.sheet(
             sheet.name, grid, warp=np.linspace(0.0, high, sheet.rows), weft=np.linspace(0.0, wide, sheet.columns),
@@ -367,7 +365,7 @@ def _with_rows(network: Network, problem: NetworkProblem, pieces: dict[str, list
                 inner = along[1:-1]
                 if inner.size == 0:
                     raise InputError(
-                        f"the line '{line.name}' has one bar: nothing can hang along it",
+                        f"the line '{line.name}' has one bar: a clump along it needs at least two",
                         parameter=f"lines.{line.name}.along",
                         remedy="give it more segments",
                     )

@@ -20,7 +20,7 @@ if TYPE_CHECKING:
 #: What is said of a rest that no finer mesh was found of, or whose finer meshes go on changing, and what helps.
 MESH_UNCHECKED, MESH_MOVES = "mesh not checked", "finer meshes do not settle it"
 HEAVY = "bars at the touchdown are heavier than their line can lift"
-FINER = "more segments, or knots of nets, tell what the mesh does"
+FINER = "more segments, or knots of nets, show the effect of the mesh"
 
 
 def unsettled_mesh(band: Band | None) -> list[str]:

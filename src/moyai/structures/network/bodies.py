@@ -158,7 +158,7 @@ def coupled_sensitivity(
     bodies, start, placed = _start(problem, network, rest)
     last = any(strand.bars[-1] == bar and strand.bars.size > 1 for strand in placed.strands)
     finer, state = refined_start(placed, 2, start, rest_flow)
-    # a step given by hand is as long as the given mesh bears at most
+    # a step given by hand is the longest that is stable on the given mesh
     shorter = {} if options.get("step") is None else {"step": 0.5 * options["step"]}
     cases: tuple[tuple[str, Network, State, int, dict[str, Any]], ...] = (
         ("half the step", placed, start, bar, {"step": 0.5 * steps[0], "body_step": 0.5 * steps[1]}),

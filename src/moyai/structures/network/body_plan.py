@@ -60,9 +60,9 @@ class BodyPlan:
     rotation: Triple
     #: Points that lines meet, from the middle [m].
     points: Mapping[str, Triple]
-    #: Coefficients along its axes [-].
+    #: Drag coefficients along its axes [-].
     drag: Triple
-    #: Coefficients along its axes [-].
+    #: Added-mass coefficients along its axes [-].
     added_mass: Triple
     #: Along and about its axes [N s/m, N m s].
     linear_damping: tuple[float, ...] = (0.0,) * 6

@@ -28,8 +28,8 @@ NEAR_SLACK = 1.0 / 3.0
 HELD = 0.5
 #: What is said of one seed in which lines snap, segments land or lines come near to slack, and what helps.
 SNAPS_OF_ONE_SEED = "one seed of a line that snaps, lands or comes near to slack: others may give much more"
-MORE_SEEDS, ONE_BY_ONE = "settings.realisations runs them", "run the case with other seeds, one by one"
-#: Key that asks for more realisations.
+MORE_SEEDS, ONE_BY_ONE = "give the number of realisations to run them", "run the case with other seeds, one by one"
+#: Key for more realisations.
 MORE = "settings.realisations"
 
 
@@ -67,7 +67,7 @@ def scatter_of(summary: xr.Dataset, name: str, run: str, **of: str) -> Array:
 def length_of(groups: Mapping[str, xr.Dataset], level: str, run: str, scatter: Array) -> tuple[str, Bound]:
     """Say in how long records of an irregular sea the largest values were found, and what they prove.
 
-    Realisations of records too short to tell the chance of one prove as little as one does: the largest of a storm is
+    Realisations of records too short to show the chance of one prove as little as one does: the largest of a storm is
     that of a longer record. Periods in which waves, current and motions still grow are none of theirs.
 
     Returns

@@ -77,7 +77,7 @@ def loads_of(plan: BodyPlan, dataset: xr.Dataset, water: Water) -> WaveLoads:
 def with_coefficients(
     problem: NetworkProblem, datasets: Mapping[str, xr.Dataset]
 ) -> tuple[NetworkProblem, list[Notice], list[IdentityCheck]]:
-    """Return the problem whose bodies bear the loads of their coefficients, with what there is to say of them.
+    """Return the problem whose bodies carry the loads of their coefficients, with what there is to say of them.
 
     Parameters
     ----------
@@ -141,7 +141,7 @@ def _other_water(problem: NetworkProblem, name: str, dataset: xr.Dataset) -> lis
 
 
 def loads_on_time(problem: NetworkProblem, plan: RunPlan) -> list[Notice]:
-    """Hold the waves of a run against what the loads of the bodies know.
+    """Compare the waves of a run with the range of the loads of the bodies.
 
     Raises
     ------
@@ -172,8 +172,8 @@ def loads_on_time(problem: NetworkProblem, plan: RunPlan) -> list[Notice]:
         if share > SMALL_BODY:
             notices.append(
                 Notice(
-                    "body-not-small", f"body '{body.name}' is {share:.2f} wave lengths long: its loads know neither "
-                    "diffraction nor radiation", share, SMALL_BODY, "warning",
+                    "body-not-small", f"body '{body.name}' is {share:.2f} wave lengths long: its loads include "
+                    "neither diffraction nor radiation", share, SMALL_BODY, "warning",
                     "give coefficients_file of a 3-D program in place of added_mass",
                 )
             )  # fmt: skip

@@ -20,7 +20,7 @@ from moyai.flexible.simulation import simulate
 from moyai.series.snaps import SnapRecord
 from moyai.structures.network.assembly import Assembly
 from moyai.structures.network.bodies import CoupledRun, coupled_sensitivity, run_coupled
-from moyai.structures.network.finer import check_finer, worth_it
+from moyai.structures.network.finer import check_finer, finer_is_useful
 from moyai.structures.network.model import NetworkProblem
 from moyai.structures.network.realisations import Realisations, left_out, realisations_of
 from moyai.structures.network.refinement import (
@@ -251,14 +251,14 @@ def _peak_uncertainty(
         if not asked:
             return None, [], history
         return None, [
-            Notice("sensitivity-left-out", "accuracy of the peak not found: the run goes on from an earlier one",
-                   severity="information", remedy="run it from its start with settings.sensitivity")
+            Notice("sensitivity-left-out", "accuracy of the peak not found: the run continues an earlier one",
+                   severity="information", remedy="run it from its start with a sensitivity run")
         ], history  # fmt: skip
     try:
         motions = motions_of(problem, plan.duration)
         options = options_of(problem, plan) if coupled is None else _of_bodies(options_of(problem, plan))
         netted = problem.gathers_twines
-        wanted = problem.settings.mesh_check == "auto" and worth_it(history, coupled, bool(why))
+        wanted = problem.settings.mesh_check == "auto" and finer_is_useful(history, coupled, bool(why))
         checked: PeakSensitivity | None = None
         if (netted or coupled is not None) and (asked or wanted):
             of = (governing, why)

@@ -104,7 +104,7 @@ class _Found:
     held: dict[str, float]
 
 
-def worth_it(history: History, coupled: CoupledRun | None, doubtful: bool) -> bool:
+def finer_is_useful(history: History, coupled: CoupledRun | None, doubtful: bool) -> bool:
     """Whether the runs of :func:`check_finer` take little time."""
     body_steps = 0.0 if coupled is None else (5.0 if doubtful else 4.0) * np.ptp(history.time) / coupled.step
     return affordable(history, doubtful) and body_steps <= BODY_STEPS

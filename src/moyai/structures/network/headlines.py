@@ -64,7 +64,8 @@ _NOT_JUDGED = Headline(
 )  # fmt: skip
 _OTHER_DIRECTIONS = replace(
     _NOT_JUDGED, text=f"{_NOT_JUDGED.text}, other directions of current and waves",
-    detail="lines square to current and waves may bear several times what lines along them do: run both headings",
+    detail="lines perpendicular to current and waves may carry several times the load of lines along them: run both "
+        "headings",
 )  # fmt: skip
 #: What is said of a line without a breaking load next to lines that have one.
 NO_STRENGTH = "breaking load not given of"
@@ -137,7 +138,7 @@ def _net_widths(groups: Mapping[str, xr.Dataset]) -> dict[str, float]:
 def _net_tension(
     problem: NetworkProblem, groups: Mapping[str, xr.Dataset], peaks: list[_Peak], widths: Mapping[str, float]
 ) -> list[Headline]:
-    """Return the highest tension of nets whose bars gather twines, over the width of netting that bears it.
+    """Return the highest tension of nets whose bars gather twines, over the width of netting that carries it.
 
     That of a bar is as much as the mesh makes it: a limit in newton says nothing of it.
     """
@@ -268,7 +269,7 @@ def _tension(problem: NetworkProblem, groups: Mapping[str, xr.Dataset], peak: _P
             items.append(
                 Headline(
                     "end_tension", "highest at the ends of its line", max(ends), "N", f"{peak.line}, its {at}", DYNAMIC,
-                    detail="the highest tension stands inside the line",
+                    detail="the highest tension is inside the line",
                 )
             )  # fmt: skip
     return items
@@ -306,7 +307,7 @@ def _utilisation(problem: NetworkProblem, groups: Mapping[str, xr.Dataset], peak
 
 
 def _types_of_parts(problem: NetworkProblem) -> dict[str, str]:
-    """Return words for the parts of lines whose parts differ in strength: of what type, and what they bear."""
+    """Return words for the parts of lines whose parts differ in strength: of what type, and what they carry."""
     return {
         name: f"{part.bar_type.name}, its own highest tension"
         for line in problem.lines
@@ -347,7 +348,7 @@ def _mean(groups: Mapping[str, xr.Dataset], peak: _Peak, load: float) -> float |
 def _band(groups: Mapping[str, xr.Dataset], peak: _Peak) -> tuple[Band | None, list[str], Bound]:
     """Return what mesh, step and the chance of one seed do to a tension, what is to be said of it, and what it proves.
 
-    A record too short to tell its chance, or one seed in which a line snaps, can break a limit and cannot keep one.
+    A record too short to show its chance, or one seed in which a line snaps, can break a limit and cannot keep one.
     """
     if peak.model == REST:
         band, settled = _rest_band(groups, peak)

@@ -49,7 +49,7 @@ def _in_time(problem: NetworkProblem, groups: Mapping[str, xr.Dataset], where: s
                 continue
             most = float(np.nanmax(np.linalg.norm(pull, axis=1)))
             band = _band(groups.get(f"/{pieces[0]}/dynamic"), pieces[2], net, most)
-            # one seed, one that still drifts, and a net that no finer one was held against, can have more
+            # one seed, one that still drifts, and a net that no finer one was compared with, can have more
             short = int(series.attrs.get("irregular", 0)) or series.attrs.get("unsettled")
             bound: Bound = "at least" if short or band is None else ""
             said = ["at the rows of the record", *([] if band else [NET_UNCHECKED])]

@@ -18,11 +18,11 @@ if TYPE_CHECKING:
 
 UNCHECKED = "mesh and step not checked"
 #: What is said with it where the number proves no limit kept.
-REMEDY = "settings.sensitivity: true checks them"
+REMEDY = "a sensitivity run checks them"
 
 
 #: Whole change from a net to one of no mesh over that to twice its knots. The half cell at a held row that no bar
-#: bears is an error of first order, which would make it 2; nets of 4 x 5 to 25 x 33 knots came to 2.2.
+#: carries is an error of first order, which would make it 2; nets of 4 x 5 to 25 x 33 knots came to 2.2.
 NET_REACH = 2.5
 
 
@@ -33,11 +33,11 @@ def mesh_and_step(value: float, finer: list[float], nets: bool = False) -> Band:
     """
     of, half, mesh, damped, finest = finer
     low, high = band_of(PeakSensitivity(of, half, mesh, math.nan, math.nan, math.nan, damped, finest))
-    words = "mesh and step: half the step, twice the segments, undamped and damped, and their change continued"
+    words = "mesh and step: half the step, twice the segments, undamped and damped, and their change extrapolated"
     if nets:
         far = max(of + NET_REACH * (mesh - of), 0.0)
         low, high = min(low, far), max(high, far)
-        words = "mesh and step: half the step, twice the knots of the nets, and their change continued"
+        words = "mesh and step: half the step, twice the knots of the nets, and their change extrapolated"
     return Band(min(low, value), max(high, value), words)
 
 

@@ -14,7 +14,7 @@ if TYPE_CHECKING:
     import xarray as xr
 
 #: What the band of the longest period is of.
-MESH = "mesh: twice the segments, and their change continued"
+MESH = "mesh: twice the segments, and their change extrapolated"
 
 
 def mode_headlines(groups: Mapping[str, xr.Dataset]) -> list[Headline]:
@@ -34,7 +34,7 @@ def mode_headlines(groups: Mapping[str, xr.Dataset]) -> list[Headline]:
         band = Band(min(ends), max(ends), MESH) if math.isfinite(finer) else None
         bodies = int(groups[f"/{level}"].attrs.get("bodies_held", 0))
         label = "longest natural period of the lines, bodies held" if bodies else "longest natural period"
-        more = "periods of the bodies are not computed: let them go in still water" if bodies else ""
+        more = "periods of the bodies are not computed: release them in still water" if bodies else ""
         detail = "; ".join(filter(None, (_motion_of(groups[f"/{level}/network"], modes), "added mass counted", more)))
         found.append(Headline("natural_period", label, value, "s", level, band=band, detail=detail))
     return [max(found, key=lambda item: item.value)] if found else []

@@ -136,9 +136,9 @@ class NetPlan:
     name: str
     #: Once around: start and end of the first row, end and start of the last.
     corners: tuple[Place, Place, Place, Place]
-    #: Knots.
+    #: Rows of knots.
     rows: int
-    #: Knots.
+    #: Columns of knots.
     columns: int
     #: ``along``, ``across``: Materials of inner and edge bars of the rows, and of the columns.
     along: tuple[BarType, BarType]
@@ -171,11 +171,11 @@ class SheetPlan:
     properties: Mapping[str, float]
     #: Unstretched length over the distance of the corners [-].
     fullness: float = 1.0
-    #: As in :class:`NetPlan`.
+    #: Hold of the first row, as in :class:`NetPlan`.
     first_row: Literal["fixed", "driven", "free"] = "free"
-    #: As in :class:`NetPlan`.
+    #: Motion of that row, as in :class:`NetPlan`.
     motion: str = ""
-    #: As in :class:`NetPlan`.
+    #: Whether it floats, as in :class:`NetPlan`.
     floats: bool = False
 
 
@@ -258,7 +258,7 @@ class MotionPlan:
                 allowed="a table over the whole run",
                 remedy="let its times begin at 0 s"
                 if self.table.start > 1e-9
-                else f"lengthen the table, or set settings.duration to {self.table.end:g} s at most",
+                else f"lengthen the table, or set the duration of the run to {self.table.end:g} s at most",
             )
         return self.table
 

@@ -58,7 +58,7 @@ class Realisations:
             Notice(
                 "realisations-lost",
                 f"{lost} of {self.seeds.size} realisations blew up at the shortest step: means are those of the others",
-                lost, 0, remedy="give a shorter settings.step or more internal damping",
+                lost, 0, remedy="give a shorter step or more internal damping",
             )
         ]  # fmt: skip
 
@@ -72,14 +72,14 @@ def left_out(problem: NetworkProblem, plan: RunPlan, history: History) -> list[N
         Notice(
             "realisations-left-out",
             f"of {asked} realisations one was run: bodies, nets with panels, sheets, slow ropes, lines that part, "
-            "implicit methods and runs that go on from earlier ones have no others",
+            "implicit methods and runs that continue earlier ones have no others",
             1, asked, remedy="run the case with other seeds, one by one",
         )
     ]  # fmt: skip
 
 
 def _wanted(problem: NetworkProblem, plan: RunPlan, history: History, doubtful: bool) -> int:
-    """Return how many realisations the case asks for, or fit into what may be spent; 1 is the run of the case alone."""
+    """Return how many realisations the case requires, or fit into what may be spent; 1 is the run of the case alone."""
     network, asked = history.network, problem.settings.realisations
     together = (
         isinstance(_sea(problem, plan), IrregularSea) and history.method == "explicit"
@@ -110,7 +110,7 @@ def realisations_of(
     doubtful: bool,
     progress: Progress,
 ) -> Realisations | None:
-    """Run further realisations of an irregular sea, as many as the case asks for or as take little time.
+    """Run further realisations of an irregular sea, as many as the case requires or as take little time.
 
     Parameters
     ----------

@@ -41,7 +41,7 @@ JERK = 1.1
 #: Bars of a line up to which its peak is doubtful whatever the run shows.
 FEW_BARS = 5
 #: Doubt of a peak that finer segments only lower: lumps that stop on the bed pull harder than a smooth line.
-LANDING = "segments that land on the bed send fronts along the line"
+LANDING = "segments that land on the bed produce spurious tension waves"
 #: Bars times steps that the finest mesh of one event may take, diameters below which bars of a line mean nothing, and
 #: the change of a peak that lands with twice the bars below which no finer mesh is run.
 LADDER_WORK, SHORTEST_BAR, LANDED = 3e8, 2.0, 0.1
@@ -185,7 +185,7 @@ def check_event(
             pulls[name] = _in_proportion(one, whole[name] / one.peak, lands)
     own = {}
     for name, one in found.lines.items():
-        # another line may bear most at another time: what the event says of it is then not of its peak
+        # another line may carry most at another time: what the event says of it is then not of its peak
         top = peak if name == line else _highest(history, _bars_of(assembly, name), skip)
         if one.peak > 0.0 and (name == line or abs(one.peak / top - 1.0) <= SAME_EVENT):
             own[name] = _in_proportion(one, top / one.peak, lands)
@@ -462,7 +462,7 @@ def not_converged(found: PeakSensitivity, goal: float, line: str, why: str, segm
     remedy = (
         f"{finer}, more internal damping (damping_ratio: {DAMPING:g} of critical), or a line that does not go slack"
         if by_mesh >= by_step
-        else "a shorter settings.step, or the internal damping that the line has"
+        else "a shorter step, or the internal damping that the line has"
     )
     if knots:
         return (
@@ -485,5 +485,5 @@ def unchecked(why: str, off: bool = False) -> Notice:
         if off
         else f"{why}; twice the segments and half the step were not run: they would take too long",
         severity="warning",
-        remedy="settings.sensitivity: true runs them all the same",
+        remedy="a sensitivity run runs them all the same",
     )

@@ -54,7 +54,7 @@ COARSE, FINE = 12, 40
 #: Height over the bed, over that of the network, up to which a node lies on it.
 _ON_BED = 1e-4
 #: What the band of a number at rest is of.
-MESH = "mesh: twice the segments, again and again until the change is small, and that change continued"
+MESH = "mesh: twice the segments, repeatedly until the change is small, and that change extrapolated"
 
 
 @dataclass(frozen=True, eq=False)
@@ -343,7 +343,7 @@ class Reach:
         scale = max(abs(last), floor)
         change = float(values[-1] - values[-2])
         uneven = abs(change - 0.5 * float(values[-2] - values[-3])) if len(values) > 2 else 0.5 * abs(change)
-        # an error of first order goes on by the last change; what is not of first order, by as much as it differs
+        # an error of first order continues by the last change; what is not of first order, by as much as it differs
         bar = abs(last) / clear
         ends = [float(values[0]), last - bar, last + bar, last + change - uneven, last + change + uneven]
         if len(values) > 2:

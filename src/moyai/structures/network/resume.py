@@ -28,9 +28,9 @@ class Earlier:
 
     #: Its last good state.
     state: State
-    #: Its rows.
+    #: Series of the earlier run.
     series: xr.Dataset
-    #: Its rows.
+    #: Frames of the earlier run.
     frames: xr.Dataset
     #: Where its bodies were then.
     bodies: Mapping[str, BodyState] = field(default_factory=dict)

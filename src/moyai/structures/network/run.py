@@ -87,7 +87,7 @@ def run(
 def _steps(problem: NetworkProblem, collected: Collected, progress: Progress) -> Iterator[None]:
     levels = problem.environment.water_levels
     if problem.bodies and "dynamic" in problem.settings.analyses:
-        # waves that the loads do not know are reported before anything is run
+        # waves that the loads do not have are reported before anything is run
         for _, level in levels:
             for plan in run_plans(problem, problem.environment.water_at(level)):
                 collected.notices.extend(loads_on_time(problem, plan))
@@ -296,13 +296,13 @@ def _stiffness(
     except ConvergenceError as error:
         collected.notices.append(
             Notice("stiffness-failed", f"{said}stiffness at driven points: {error.fault.message}",
-                   remedy="set settings.stiffness_step")
+                   remedy="set the step of the stiffness")
         )  # fmt: skip
         return None
 
 
 def _weight_check(assembly: Assembly, found: dict[str, Equilibrium], said: str, collected: Collected) -> None:
-    """Hold the loads on all held points against the weight in water, where nothing lies on a bed or floats."""
+    """Compare the loads on all held points with the weight in water, where nothing lies on a bed or floats."""
     network = assembly.network
     carried = any(name in network.points for name in network.motion_names)
     if carried or network.sheets is not None or network.bed is not None or network.nodes.held.any():
@@ -342,7 +342,7 @@ def _dynamic(
     condition = "current" if start == "rest_in_current" and problem.environment.current is not None else "still water"
     if start != "as_built" and condition not in rests:
         collected.failures.append(
-            f"{said}no run through time: there is no rest to start from; settings.start: as_built starts without one"
+            f"{said}no run through time: there is no equilibrium to start from; the start 'as_built' needs none"
         )
         return
     begin = State.at_rest(assembly.network) if start == "as_built" else rests[condition].state
@@ -364,7 +364,7 @@ def _dynamic(
             raise InputError(
                 f"the run '{plan.name}' of the earlier result is complete: it reached {before.state.time:g} s",
                 parameter="settings.resume",
-                remedy="lengthen settings.duration, or remove 'resume'",
+                remedy="lengthen the duration, or remove 'resume'",
             )
         item = run_through_time(
             problem,
@@ -407,7 +407,7 @@ def _not_run(problem: NetworkProblem) -> str:
 def _result(problem: NetworkProblem, collected: Collected) -> Result:
     if collected.interrupted:
         begun = any("/time/" in name for name in collected.groups)
-        ahead = "; settings.resume goes on from its last state" if begun else ""
+        ahead = "; 'resume' continues from its last state" if begun else ""
         collected.interrupted += f"; what there was by then is kept{ahead}"
     attributes = {
         "structure": "network",

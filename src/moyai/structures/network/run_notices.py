@@ -53,7 +53,7 @@ def wet_in_air(network: Network, position: Array, said: str = "") -> list[Notice
     return [
         Notice(
             "wet-in-air",
-            f"{said}{over.size} bodies with volume and 'height: 0' stand above still water with all of their buoyancy, "
+            f"{said}{over.size} bodies with volume and 'height: 0' are above still water with all of their buoyancy, "
             f"'{name}' the highest: tensions are not those of floats at the surface",
             float(position[node, 2]), 0.0, "error", "leave 'height' out, or give the height of the body",
         )
@@ -71,7 +71,7 @@ def _counted_periods(plan: RunPlan) -> list[Notice]:
             "waves-not-counted",
             f"{plan.name}: of {plan.duration:g} s, with waves that grow for {ramp:g} s and {plan.skip:g} s skipped, "
             f"{max(left, 0.0):g} s count at their height, less than one period",
-            max(left, 0.0), plan.period, "error", "a longer settings.duration, or a shorter ramp and skip",
+            max(left, 0.0), plan.period, "error", "a longer duration, or a shorter ramp and skip",
         )
     ]  # fmt: skip
 
@@ -85,7 +85,7 @@ def run_notices(
         notices.append(
             Notice("rows-too-far-apart", "slack, contacts and rise times are found at the rows, too far apart for "
                    "the shortest rise; peaks are taken at every step", plan.output_step, rise / 3.0, "warning",
-                   "shorten settings.output_step")
+                   "shorten the output step")
         )  # fmt: skip
     if history.nodes.size < len(history.network.nodes):
         notices.append(
@@ -99,8 +99,8 @@ def run_notices(
     notices += _counted_periods(plan)
     if plan.skip >= plan.duration:
         notices.append(
-            Notice("nothing-counted", f"settings.skip of {plan.skip:g} s leaves nothing of the run",
-                   plan.skip, plan.duration, "warning", "lower settings.skip")
+            Notice("nothing-counted", f"a skip of {plan.skip:g} s leaves nothing of the run",
+                   plan.skip, plan.duration, "warning", "skip less")
         )  # fmt: skip
     for sheet in problem.sheets:
         if "added_mass_per_area" not in sheet.properties:
@@ -110,7 +110,7 @@ def run_notices(
                     f"the sheet {sheet.name!r} takes no water along: wet cloth moves across itself "
                     "as quickly as it does in air",
                     severity="warning",
-                    remedy=f"give structure.sheets.{sheet.name}.added_mass (0 where it stays dry)",
+                    remedy=f"give the sheet {sheet.name!r} an added mass (0 where it stays dry)",
                 )
             )
     return [*notices, *_turned_cloth(history)]
@@ -154,7 +154,7 @@ def _turned_cloth(history: History) -> list[Notice]:
 
 
 def peak_inside(assembly: Assembly, series: xr.Dataset, name: str, bar: int) -> list[Notice]:
-    """Say when the highest tension stands inside a line whose ends bear much less."""
+    """Say when the highest tension stands inside a line whose ends carry much less."""
     if name not in assembly.lines or bar < 0:
         return []
     time = series["time"].values
@@ -169,12 +169,12 @@ def peak_inside(assembly: Assembly, series: xr.Dataset, name: str, bar: int) -> 
     place = float(np.sum(lengths[:row]) + 0.5 * lengths[row])
     return [
         Notice(
-            "peak-inside", f"the highest tension of '{name}' stands {place:.4g} m from its start, a slack stretch that "
+            "peak-inside", f"the highest tension of '{name}' is {place:.4g} m from its start, where a slack part "
             f"is pulled straight or falls on the bed: {spoken(peak, 'N')} there, "
             f"{spoken(ends[0], 'N', like=peak)} at its start and {spoken(ends[1], 'N', like=peak)} at its end",
             peak, INSIDE * max(ends), "warning",
-            "take the tension at the ends for anchors and fairleads; so short an impact hangs on the internal damping: "
-            "see settings.sensitivity",
+            "take the tension at the ends for anchors and fairleads; so short an impact depends on the internal "
+            "damping: do a sensitivity run",
         )
     ]  # fmt: skip
 
@@ -207,5 +207,5 @@ def overturned(name: str, lean: float, does: str) -> Notice:
     """Return the notice of a body that lies on its side or beyond."""
     return Notice(
         "body-turned-over", f"body '{name}' {does} {math.degrees(lean):.0f} degrees from upright", lean, OVER,
-        "warning", "check its centre of gravity, its mass, and where its lines pull",
+        "warning", "check its centre of gravity, its mass, and where its lines pull", unit="rad",
     )  # fmt: skip

@@ -1,4 +1,4 @@
-"""Which runs through time a case asks for: seas, durations, steps of the results, the water of each."""
+"""Which runs through time a case requires: seas, durations, steps of the results, the water of each."""
 
 from __future__ import annotations
 
@@ -34,9 +34,9 @@ class RunPlan:
     #: Of its group in the results.
     name: str
     flow: Flow
-    #: [s].
+    #: Duration of the run [s].
     duration: float
-    #: [s].
+    #: Step of the output [s].
     output_step: float
     #: That the eye follows: of the waves, else of the motions; NaN without either [s].
     period: float
@@ -93,7 +93,7 @@ def run_plans(problem: NetworkProblem, water: Water) -> tuple[RunPlan, ...]:
     Raises
     ------
     InputError
-        When there is nothing to tell how long a run should be.
+        When nothing determines how long a run should be.
     """
     found, start = [], problem.start
     rest = None if start == "as_built" else steady_flow(problem, water) if start == "rest_in_current" else Flow()
@@ -132,7 +132,7 @@ def _plans(problem: NetworkProblem, water: Water) -> tuple[RunPlan, ...]:
             duration = float(problem.current_field.time[-1])
         else:
             raise InputError(
-                "nothing tells how long the run should be: no waves, no motion with a period",
+                "the duration of the run cannot be derived: no waves, no motion with a period",
                 parameter="settings.duration",
                 remedy="give a duration",
             )
@@ -187,7 +187,7 @@ def theory_limit(problem: NetworkProblem, plan: RunPlan) -> list[Notice]:
     if plan.waves is None or plan.irregular:
         return []
     if problem.linear_waves_only:
-        # diffraction and radiation know no steeper waves: as for a breakwater the range is reported, no other can run
+        # diffraction and radiation are for no steeper waves: as for a breakwater the range is reported
         remedy = "the coefficients of a body answer linear waves: compare with a lower or longer wave"
         return [replace(one, severity="warning") for one in linear_limit(plan.name, plan.waves, remedy)]
     return linear_limit(plan.name, plan.waves, "use 'theory: automatic', which takes the stream function here")

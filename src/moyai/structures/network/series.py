@@ -212,7 +212,7 @@ def snaps_of(problem: NetworkProblem, series: xr.Dataset) -> dict[str, SnapRecor
         return {}
     for name in series["line"].values:
         highest = series["line_tension_peak_since_row"].sel(line=name).values[chosen]
-        # the more loaded end tells whether the line is slack; the other one may lie on the bed
+        # the more loaded end shows whether the line is slack; the other one may lie on the bed
         ends = [series[key].sel(line=name).values[chosen] for key in ("start_tension", "end_tension")]
         record = max(ends, key=lambda values: float(np.nanmean(values)))
         # a heavy end stays taut over a light stretch that goes slack

@@ -63,7 +63,7 @@ class Drift:
         return [
             Notice(
                 "still-drifting", f"{self.words()}: tensions, pulls and offsets are those of the way there",
-                severity="warning", remedy="a longer settings.duration, or settings.start: rest_in_current",
+                severity="warning", remedy="a longer duration, or the start 'rest_in_current'",
             )
         ]  # fmt: skip
 
@@ -222,7 +222,7 @@ def settled(problem: NetworkProblem, plan: RunPlan, series: xr.Dataset, origin: 
     ----------
     problem, plan
     series : xarray.Dataset
-        Of the whole run, with the rows of an earlier one that it goes on from.
+        Of the whole run, with the rows of an earlier one that it continues from.
     origin : ndarray, shape (points, 3), or None
         Places of the points in still water [m]; where the run begins when left out.
     """

@@ -1,4 +1,4 @@
-"""What a network bears while its run starts, on the first page."""
+"""What a network carries while its run starts, on the first page."""
 
 from __future__ import annotations
 

@@ -7,7 +7,7 @@ from collections.abc import Iterable
 
 from moyai.structures.network.model import MotionPlan
 
-#: The rule of a beginning that the case asks for.
+#: The rule of a beginning that the case requires.
 ASKED = "settings.skip"
 
 
@@ -21,7 +21,7 @@ def start_up(
 ) -> tuple[float, str]:
     """Return the length of the beginning that does not count [s] [eq:flexible-start-up], and its rule in words.
 
-    Lines at rest that are seized by a point at speed bear a jerk of EA v / c, which belongs to the way the run begins
+    Lines at rest that are seized by a point at speed carry a jerk of EA v / c, which belongs to the way the run begins
     and not to the motion. One mean period of that motion is left out, at most half the run. Waves that grow within a
     period find the network at rest: five of them are left out, at most a quarter of the run, and a period counts.
 

@@ -21,7 +21,7 @@ if TYPE_CHECKING:
 
 #: Share of the largest elongation that motion across may add before the force is no more than a bound from below.
 COUNTS = 0.1
-#: Stiffness across over that along, below which a spring is a line from end to end that does not know it.
+#: Stiffness across over that along, below which a spring is a line from end to end without it.
 SLENDER = 0.1
 
 
@@ -53,7 +53,7 @@ def stretch_across(joints: Sequence[UnitJoint], motion: Array, highest: Array, *
 
 
 def _on_one_axis(joint: UnitJoint, in_time: bool) -> bool:
-    """Whether a connector bears along one axis alone that would bear from end to end."""
+    """Whether a connector carries along one axis alone that would carry from end to end."""
     if joint.connector.kind in ("chain", "rubber"):
         return not (in_time and joint.in_space)
     if joint.connector.stiffness is None or joint.span == 0.0:
@@ -80,7 +80,7 @@ def across_notices(groups: Mapping[str, xr.Dataset]) -> Iterator[Notice]:
         yield Notice(
             "motion-across-connector",
             f"{level}, {where}: the units move against each other across the connector, which would stretch it by "
-            f"{most:.3g} m; it acts along one direction and does not see it: its force is higher",
+            f"{most:.3g} m; it acts along one direction and does not resist it: its force is higher",
             value=most, severity="warning",
             remedy="run the analysis time, where chain and rubber are drawn from end to end"
             if analysis == "frequency"

@@ -103,7 +103,7 @@ def _capacity(found: Largest, pull: Headline, asked: list[_Asked]) -> Headline:
 
 
 class _Asked(NamedTuple):
-    """What the anchor of a line asks for in a sea: the weight of a sinker, the uplift at which it is judged [N]."""
+    """What the anchor of a line requires in a sea: the weight of a sinker, the uplift at which it is judged [N]."""
 
     line: str
     sinker: float

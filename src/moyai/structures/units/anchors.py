@@ -38,7 +38,7 @@ TENSION = "line_tension_of_anchor_loads"
 
 
 def anchor_curves(at: RowAtLevel) -> dict[str, tuple[tuple[str, str], Array]]:
-    """Return tension [N] of every line, and with it pull across, uplift [N] and length on the bed [m], as variables.
+    """Return tension [N] of every line with its horizontal pull, uplift [N] and length on the bed [m], as variables.
 
     Fairleads keep their height at rest while they are drawn away from the anchor. Springs have no anchor: NaN.
     """
@@ -59,7 +59,7 @@ def anchor_curves(at: RowAtLevel) -> dict[str, tuple[tuple[str, str], Array]]:
 
 
 def _curve(line: Line, rise: float, depth: float) -> Array:
-    """Return tension, pull across, uplift and length on the bed (4, points) from slack to beyond the breaking load."""
+    """Return tension, horizontal pull, uplift, length on the bed (4, points) from slack to beyond the breaking load."""
 
     def solved(across: Array) -> Array:
         with np.errstate(invalid="ignore", over="ignore"):
@@ -120,7 +120,7 @@ def loads_of_record(at: RowAtLevel, motions: Array, tension: Array) -> dict[str,
 
 
 def loads_at(tension: Array, statics: xr.Dataset) -> Array:
-    """Return pull across, uplift [N] and length on the bed [m] (3, ..., lines) of lines at tensions (..., lines) [N].
+    """Return horizontal pull, uplift [N], length on the bed [m] (3, ..., lines) of lines at tensions (..., lines) [N].
 
     A line that pulls its anchor down lifts it by nothing. Springs: NaN.
     """

@@ -398,7 +398,7 @@ def held_load(at: RowAtLevel, force: Any) -> Any:
 def steady_load(at: RowAtLevel, environment: Environment) -> tuple[Array, Array]:
     """Return the forces (m,) of wind and of current on all units [eq:units-steady-load].
 
-    Each unit bears the pressure across and along its own axes on its side and its end; no unit shelters another.
+    Each unit carries the pressure across and along its own axes on its side and its end; no unit shelters another.
     """
     wind, current = np.zeros(at.size), np.zeros(at.size)
     row = at.row

@@ -139,12 +139,12 @@ def _check_bodies(dataset: xr.Dataset, at: RowAtLevel) -> None:
         where = f"in unit {others[0]}" if others else f"at x = {point[0]:.4g} m, y = {point[1]:.4g} m"
         order = [next((b for b, column in zip(bodies, inside) if column[unit]), "") for unit in range(row.count)]
         raise InputError(
-            f"body '{name}' of the file stands {where}, unit {number + 1} at x = {place.x:.4g} m, y = {place.y:.4g} m",
+            f"body '{name}' of the file is {where}, unit {number + 1} at x = {place.x:.4g} m, y = {place.y:.4g} m",
             parameter=WHERE,
             allowed="bodies in the order and at the places of the units",
             remedy=f"give bodies: [{', '.join(order)}]"
             if all(order)
-            else "give 'origin' and 'x_axis_heading_deg' of the axes of the file, or correct the places of the units",
+            else "give origin and heading of the x axis of the file, or correct the places of the units",
         )
 
 
@@ -157,7 +157,7 @@ def _within(at: RowAtLevel, point: Array, unit: int) -> bool:
 
 
 def _stiffness_notices(dataset: xr.Dataset, at: RowAtLevel) -> list[Notice]:
-    """Hold the heave stiffness of the file against that of the units: another draught, section or unit of length."""
+    """Compare the heave stiffness of the file with that of the units: another draught, section or unit of length."""
     if "hydrostatic_stiffness" not in dataset:
         return []
     found = np.diag(dataset["hydrostatic_stiffness"].values)[2::6]
@@ -279,7 +279,7 @@ def at_frequencies(whole: RowHydrodynamics, omega: Array) -> RowHydrodynamics:
             f"the seas need {omega.min():.4g} to {omega.max():.4g} rad/s, the file holds {own[0]:.4g} to "
             f"{own[-1]:.4g} rad/s",
             parameter=WHERE,
-            remedy="run the program at more frequencies, or give 'settings.frequencies' within those of the file",
+            remedy="run the program at more frequencies, or give frequencies within those of the file",
         )
     clipped = np.clip(omega, own[0], own[-1])
     k = np.array([float(wave_number(w, whole.water.depth, whole.water.gravity)) for w in clipped])

@@ -2,7 +2,7 @@
 
 The relative motion of a connector is that of the unit after it less that of the unit before it, at its place, in axes
 of the gap: x along the face of the unit before it, y across the gap, z up [eq:units-relative]. The order in which a
-pair is listed does not matter [eq:units-faces]. Held components are constraints; the others bear by springs, dashpots,
+pair is listed does not matter [eq:units-faces]. Held components are constraints; the others carry by springs, dashpots,
 curves.
 """
 

@@ -1,4 +1,4 @@
-"""Where connectors that bear one way keep contact, and where hulls meet: what the linear answer then still knows.
+"""Where connectors that carry one way keep contact, and where hulls meet: what is then valid of the linear answer.
 
 A fender that is pressed at rest is a spring both ways in the linear answer; it holds its units only as long as no wave
 lifts it off. Hulls that meet push each other, which neither domain computes.
@@ -26,7 +26,7 @@ _LETS_GO = 0.05
 
 
 def touches(curve: Curve, low: float, high: float) -> tuple[bool, bool]:
-    """Return whether a connector bears from one elongation to another [m], and whether it lets go there.
+    """Return whether a connector carries from one elongation to another [m], and whether it lets go there.
 
     It lets go where its curve is flat over a stretch, or hardly rises next to another one.
     """
@@ -43,7 +43,7 @@ def touches(curve: Curve, low: float, high: float) -> tuple[bool, bool]:
 
 
 def measured_ends(curve: Curve, kind: str) -> tuple[float, float]:
-    """Return the ends [m] between which a curve was measured; NaN where it has none or bears nothing beyond it."""
+    """Return the ends [m] between which a curve was measured; NaN where it has none or carries nothing beyond it."""
     ends = np.array([curve.elongation[0], curve.elongation[-1]])
     force = np.array(curve.force)
     idle = [not force[:2].any(), not force[-2:].any()]
@@ -52,7 +52,7 @@ def measured_ends(curve: Curve, kind: str) -> tuple[float, float]:
 
 
 def loses_contact(at: RowAtLevel, low: Array, high: Array) -> bool:
-    """Return whether any connector that is worked between elongations (joints,) [m] bears and lets go.
+    """Return whether any connector that is worked between elongations (joints,) [m] carries and lets go.
 
     Its impacts go through the whole row.
     """

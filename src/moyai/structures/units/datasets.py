@@ -121,7 +121,7 @@ _ANCHOR_AT_REST = ("anchor_horizontal_tension", "anchor_vertical_tension", "grou
 
 
 def _anchors_at(at: RowAtLevel, position: Array) -> Array:
-    """Return pull across and uplift of the anchors and length on the bed (3, lines) at a position (m,)."""
+    """Return horizontal pull and uplift of the anchors and length on the bed (3, lines) at a position (m,)."""
     lines = at.row_lines
     return lines.anchor_loads_of(position.reshape(-1, 6)[lines.unit]) if at.line_names else np.zeros((3, 0))
 

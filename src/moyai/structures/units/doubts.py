@@ -18,7 +18,7 @@ if TYPE_CHECKING:
 
 SLOW_DRIFT = "slow drift of the units against each other is not computed in the frequency domain and adds to it"
 LETS_GO = (
-    "a connector bears and lets go within the wave: its impacts are not in the linear answer and add to it, run the "
+    "a connector acts and releases within the wave: its impacts are not in the linear answer and add to it, run the "
     "time domain"
 )
 MEET = "hulls meet in this sea, and their impact is not computed"
@@ -36,7 +36,7 @@ def why_loose(path: str, data: xr.Dataset) -> str:
 
 
 def lets_go(path: str, data: xr.Dataset) -> bool:
-    """Whether a connector of the row bears and lets go within the waves, in the frequency domain."""
+    """Whether a connector of the row carries and lets go within the waves, in the frequency domain."""
     lost = None if in_time(path) else data.get("connector_loses_contact")
     return lost is not None and bool(lost.values.any())
 
@@ -144,16 +144,17 @@ def meeting_notice(where: str, share: np.ndarray, width: np.ndarray, least: floa
         yield Notice(
             "hulls-meet",
             f"{where}: a gap closes by {most * float(width[gap]):.3g} m of {float(width[gap]):.3g} m: hulls meet, "
-            "which lies outside the model: what connectors bear and how gaps open is not known, offsets and lines are "
-            "those of units that lie in one another",
+            "which is outside the model: forces of connectors and openings of gaps are not valid, offsets and lines "
+            "are "
+            "those of overlapping hulls",
             value=most, limit=1.0, severity="error", remedy=remedy,
         )  # fmt: skip
     elif least <= 0.0:
         yield Notice(
             "hulls-meet",
-            f"{where}: two units overlap by {-least:.3g} m in their mean position: hulls meet, which lies outside the "
-            "model: what connectors bear and how gaps open is not known, offsets and lines are those of units that lie "
-            "in one another",
+            f"{where}: two units overlap by {-least:.3g} m in their mean position: hulls meet, which is outside the "
+            "model: forces of connectors and openings of gaps are not valid, offsets and lines are those of "
+            "overlapping hulls",
             value=-least, limit=0.0, severity="error", remedy=remedy,
         )  # fmt: skip
 
@@ -184,7 +185,7 @@ def push_notices(groups: Mapping[str, xr.Dataset], seas: Seas) -> Iterator[Notic
 
 
 def curve_notices(seas: Seas) -> Iterator[Notice]:
-    """Say which connectors are stretched or pressed beyond their measured curve, which then goes on straight."""
+    """Say which connectors are stretched or pressed beyond their measured curve, then extrapolated linearly."""
     for path, data in seas:
         name = "connector_resultant_largest"
         if "curve_lowest" not in data or name not in data:

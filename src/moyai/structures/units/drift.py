@@ -11,9 +11,9 @@ from moyai.structures.units.response import RowModel
 
 
 def share_drift(at: RowAtLevel, drift: Array) -> Array:
-    """Return a drift force (3,) of the whole row as loads (m,), where nothing tells the units apart.
+    """Return a drift force (3,) of the whole row as loads (m,), where nothing separates the units.
 
-    Every unit bears the same force, and a couple of forces makes up the moment; of a single unit its yaw moment.
+    Every unit carries the same force, and a couple of forces makes up the moment; of a single unit its yaw moment.
     """
     out = np.zeros(at.size)
     count = at.row.count

@@ -167,7 +167,7 @@ def _connectors(groups: Mapping[str, xr.Dataset], seas: Seas) -> Iterator[Headli
         damages,
         [
             Headline(
-                "connector_damage", "Share of the life of a connector that the sea takes", damage.value, "1",
+                "connector_damage", "Fatigue damage of a connector in this sea", damage.value, "1",
                 damage.where, TIME, band=damage.band, bound=damage.bound,
                 detail=f"in {float(damage.data.attrs['duration']) / 3600.0:.3g} h, cycles by rainflow",
             )
@@ -232,7 +232,7 @@ def _connector_force(found: Largest) -> Headline:
     words = (
         "largest of the record, all components together"
         if found.timed
-        else "mean and waves together, along the direction that bears most"
+        else "mean and waves together, along the direction of the largest force"
     )
     return Headline(
         "connector_force", "Largest force in a connector", found.value, "N", found.where, _model(found),

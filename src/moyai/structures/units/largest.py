@@ -141,7 +141,7 @@ class Largest:
 
     @property
     def lets_go(self) -> bool:
-        """Whether a connector of the row bears and lets go, which its linear motions do not know."""
+        """Whether a connector of the row carries and lets go, which its linear motions do not have."""
         return doubts.lets_go(self.path, self.data)
 
     @property

@@ -16,7 +16,7 @@ from moyai.mooring.rotations import cross_matrix
 from moyai.structures.units.connectors import UnitJoint, stretch
 from moyai.structures.units.model import Curve
 
-#: Which forces a curve bears: it pulls only, it pushes only, both.
+#: Which forces a curve carries: it pulls only, it pushes only, both.
 PULLS, PUSHES, BOTH = 1.0, -1.0, 0.0
 #: Length, over that at rest, below which the force of a line falls to nothing where its ends meet: it has no direction
 #: there.
@@ -209,7 +209,7 @@ def part_of(curve: Curve, side: float) -> Curve:
 
 
 def _beyond(inner: tuple[float, float], end: tuple[float, float]) -> list[tuple[float, float]]:
-    """Return where the last piece of a curve, gone on with, bears nothing, and a point as far again."""
+    """Return where the last piece of a curve, gone on with, carries nothing, and a point as far again."""
     slope = (end[1] - inner[1]) / (end[0] - inner[0])
     if slope == 0.0 or (end[0] - inner[0]) * end[1] * slope >= 0.0:
         return []

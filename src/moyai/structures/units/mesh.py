@@ -158,7 +158,7 @@ def unit_mesh(
     even : bool
         Whether the middle of the unit falls on a station.
     end_size : float or None
-        Of the panels on the ends across, where a gap asks for smaller ones [m].
+        Of the panels on the ends across, where a gap requires smaller ones [m].
     """
     along = cuts(length, size, even=even) - 0.5 * length
     pieces: list[Array] = []
@@ -410,5 +410,5 @@ def check_gaps(section: Section, length: float, placements: tuple[Placement, ...
                     f"({size:.3g} m)",
                     parameter="units",
                     allowed=f"at least {LEAST_GAP * size:.3g} m with these panels",
-                    remedy="widen the gap or give smaller panels (settings.panel_size)",
+                    remedy="widen the gap or give smaller panels",
                 )

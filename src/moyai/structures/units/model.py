@@ -58,7 +58,7 @@ class Placement:
 class Curve:
     """Force [N] over elongation [m] of a connector that acts along one direction, straight between its points.
 
-    Beyond the ends it goes on with the slope of the last piece.
+    Beyond the ends it continues with the slope of the last piece.
     """
 
     elongation: tuple[float, ...]
@@ -129,7 +129,7 @@ class Connector:
     linear_damping: float = 0.0
     #: Largest resultant force [N]; infinite where it is not known.
     breaking_load: float = math.inf
-    #: Cycles that it bears over the range of its force [N].
+    #: Cycles that it withstands over the range of its force [N].
     endurance: EnduranceCurve | None = None
     #: Whether chain or rubber is drawn between its ends in space; else a curve acts along ``axis`` alone.
     end_to_end: bool = False
@@ -157,7 +157,7 @@ class UnitLine:
     stiffness: float = 0.0
     #: See ``stiffness``.
     pretension: float = 0.0
-    #: What the segments are made of, for a line in motion; empty where a segment does not tell enough.
+    #: What the segments are made of, for a line in motion; empty where a segment does not give enough.
     bar_types: tuple[BarType, ...] = ()
     #: Mass [kg] and volume [m3] of the clumps.
     clump_bodies: tuple[tuple[float, float], ...] = ()

@@ -1,4 +1,4 @@
-"""Mean drift of every unit from the pressure on its own hull, which far waves do not tell apart [eq:units-near-field].
+"""Mean drift of every unit from the pressure on its own hull, which far waves do not separate [eq:units-near-field].
 
 Time factor e^{-i omega t}; per square of the amplitude. The velocity along the hull is that of the parabolas through
 neighbouring panels, the elevation at the waterline theirs as well. Towards a sharp edge the potential goes with the

@@ -23,7 +23,7 @@ _LEVEL = 1e-9
 def breadths(hull: Hull) -> Array:
     """Return the ends in x (n, 2) [m] of a hull at the heights that tell how near another one of its kind may come.
 
-    A height at which it is narrower on both sides than at another one tells nothing.
+    A height at which it is narrower on both sides than at another one is left out.
     """
     runs = [np.asarray(item.edges.polyline(), dtype=float) for item in hull.outlines]
     start, end = np.concatenate(runs), np.concatenate([np.roll(run, -1, axis=0) for run in runs])

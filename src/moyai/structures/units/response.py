@@ -143,7 +143,7 @@ def respond(
     eddies : LinearEddies or None
         Drag of the edges in the sea that is answered.
     waves : RowWaves, optional
-        Of these frequencies, where they are at hand.
+        Of these frequencies, where they are given.
     """
     at = model.at
     if waves is None:

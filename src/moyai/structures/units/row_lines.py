@@ -84,7 +84,7 @@ class RowLines:
         return out
 
     def anchor_loads_of(self, positions: Array) -> Array:
-        """Return pull across and uplift at the anchors [N] and length on the bed [m] (3, ..., lines) at rest.
+        """Return horizontal pull and uplift at the anchors [N] and length on the bed [m] (3, ..., lines) at rest.
 
         Each line with its unit at a position (..., lines, 6); springs have no anchor: NaN.
         """

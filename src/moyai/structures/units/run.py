@@ -103,7 +103,7 @@ def irregular_frequency(at: RowAtLevel) -> float:
 
 
 def check_resolution(at: RowAtLevel, panels: MeshPanels, omega: Array) -> tuple[Notice, ...]:
-    """Hold the panels against the shortest wave.
+    """Compare the panels with the shortest wave.
 
     Raises
     ------
@@ -120,13 +120,13 @@ def check_resolution(at: RowAtLevel, panels: MeshPanels, omega: Array) -> tuple[
             f"panels long (longest side {side:.3g} m)",
             parameter="settings.panel_size",
             allowed=f"panels of {shortest / LEAST_PANELS:.3g} m or less",
-            remedy="give smaller panels, or leave the short waves out (settings.frequencies)",
+            remedy="give smaller panels, or leave the short waves out of the frequencies",
         )
     if shortest < FEW_PANELS * side:
         return (
             Notice(
                 "few-panels", f"{at.name}: the shortest wave is {shortest / side:.2g} panels long", shortest / side,
-                FEW_PANELS, remedy="give smaller panels (settings.panel_size) and compare",
+                FEW_PANELS, remedy="give smaller panels and compare",
             ),
         )  # fmt: skip
     return ()
@@ -207,7 +207,7 @@ def _level_steps(
         found = row_from_file(of_file, at, omega, headings)
         hydro = found.hydro
         collected.notices.extend(replace(item, message=f"{at.name}: {item.message}") for item in found.notices)
-        # what the file does not know moves nothing
+        # what the file does not have moves nothing
         settings = replace(settings, drift=settings.drift and hydro.drift is not None)
         problem = replace(problem, settings=settings)
     collected.checks.extend(replace(check, name=f"{at.name}: {check.name}") for check in hydro.checks)
@@ -312,7 +312,7 @@ def _section(
 def _balance(
     at: RowAtLevel, sea: RegularSea | IrregularSea, answers: list[SeaAnswer], hydro: RowHydrodynamics
 ) -> list[IdentityCheck]:
-    """Hold what the far waves lose against what damping takes; the surface damped in gaps takes a part unknown here."""
+    """Compare what the far waves lose with what damping takes; the surface damped in gaps takes a part unknown here."""
     if at.row.gap_damping_lid > 0.0 or hydro.panels is None:
         return []
     worst = max(float(np.abs(item.far.balance).max()) for item in answers)
@@ -347,7 +347,7 @@ def _notices(problem: UnitsProblem, at: RowAtLevel) -> list[Notice]:
                 "gaps-without-damping",
                 "the water in the gaps between units has no damping: near its resonance the waves there are too high",
                 severity="information",
-                remedy="give 'structure.gap_damping_lid' and compare",
+                remedy="give a damping lid in the gaps and compare",
             )
         )
     if not problem.settings.drift:
@@ -357,7 +357,7 @@ def _notices(problem: UnitsProblem, at: RowAtLevel) -> list[Notice]:
                 f"{at.name}: the drift of the waves is left out: offsets, tensions and closings of gaps are too low, "
                 "on chains several times over in an irregular sea",
                 severity="warning",
-                remedy="leave 'settings.drift' out; coefficients of a file need its drift",
+                remedy="do not switch the drift off; coefficients of a file need its drift",
             )
         )
     out.extend(replace(notice, message=f"{at.name}: {notice.message}") for notice in eddy_notices(at))
@@ -371,7 +371,7 @@ def _notices(problem: UnitsProblem, at: RowAtLevel) -> list[Notice]:
                 "surge-without-damping",
                 "edges along the units shed no eddies in surge: slow drift along the row has no damping but that of "
                 "the waves, and its offsets are too large",
-                remedy="give structure.damping a fraction of critical in surge, or structure.additional_damping",
+                remedy="give a fraction of critical damping in surge, or an additional damping",
             )
         )
     roll = DOFS.index("roll")
@@ -380,7 +380,7 @@ def _notices(problem: UnitsProblem, at: RowAtLevel) -> list[Notice]:
             Notice(
                 "no-damping",
                 "the units have no damping of roll but that of the waves they make: roll at resonance is too large",
-                remedy="leave out 'structure.damping.viscous: none', or give a fraction of critical in roll",
+                remedy="do not switch the viscous damping off, or give a fraction of critical in roll",
             )
         )
     if any(isinstance(sea, IrregularSea) for sea in problem.environment.sea_states):

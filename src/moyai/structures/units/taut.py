@@ -1,6 +1,6 @@
 """Lines that come taut in an irregular sea: their tension at rest where the row is most likely when they pull most.
 
-The tangent at the mean position does not know how far a line is from being straight.
+The tangent at the mean position does not show how far a line is from being straight.
 """
 
 from __future__ import annotations

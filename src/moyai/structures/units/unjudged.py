@@ -31,18 +31,18 @@ def not_judged(seas: Seas) -> Headline:
         detail.append("no fatigue of connectors and lines")
     if any(np.nan_to_num(data["connector_moment_largest"].values).any() for _, data in seas):
         words.append("moments in connectors")
-        detail.append("the moment in a connector is a number of the page, no strength of the case is held against it")
+        detail.append("the moment in a connector is a number of the page, no strength of the case is compared with it")
     if alone := _without_gap(seas):
         words.append("contact of hulls")
         numbers = ", ".join(str(unit) for unit in alone)
-        detail.append(f"no face of another unit stands before these units, no gap of theirs is followed: {numbers}")
+        detail.append(f"no face of another unit is opposite these units, no gap of theirs is followed: {numbers}")
     if any(
         np.isfinite(data["maximum_anchor_horizontal_tension"].values).any()
         for _, data in seas
         if "maximum_anchor_horizontal_tension" in data
     ):
         words.append("the holding of an anchor in its soil")
-        detail.append("loads of anchors are numbers of the page, no soil is held against them")
+        detail.append("loads of anchors are numbers of the page, no soil is compared with them")
     words += ["one line lost", "other directions of waves and current"]
     detail.append("no row with a line or a connector lost, no directions but those of the seas of the case")
     return Headline("not_judged", "Not judged", math.nan, "1", text=", ".join(words), detail="; ".join(detail))

@@ -1,7 +1,7 @@
 """Variation of a quantity over its panels: parabolas through neighbours, areas and Rankine terms that follow from them.
 
 A value a panel stands for its centre. Along both directions of a panel a parabola through the centres of its
-neighbours tells how the quantity varies over it [eq:units-parabola]; what that adds to integrals with a smooth factor
+neighbours gives how the quantity varies over it [eq:units-parabola]; what that adds to integrals with a smooth factor
 are other areas [eq:units-areas], what it adds to the layers of 1/r is computed once for all frequencies
 [eq:units-rankine]. Neighbours share a side and turn little: nothing is drawn round a sharp edge.
 """

@@ -125,7 +125,8 @@ def _correlations(found: Any, names: list[str]) -> tuple[Block, ...]:
     if not np.isfinite(matrix).all():
         said = "The observations do not fix all values: some correlations are not known."
     elif words:
-        said = "These observations hardly tell apart: " + "; ".join(words) + ". Observe other states, or fix one value."
+        alike = "; ".join(words)
+        said = f"These observations hardly distinguish: {alike}. Observe other states, or fix one value."
     else:
         said = f"No two values have a correlation of {STRONG_CORRELATION:g} or more: all are distinguished."
     shown = [[f"{value:.3f}" if math.isfinite(value) else DASH for value in row] for row in matrix]
@@ -158,6 +159,6 @@ def _agreement(found: Any) -> tuple[Block, ...]:
                 "zero", {"o": np.array([observed.min(), observed.max()])}, np.zeros(2), 0, 1, dash="dash", faint=True
             ),
         ),
-        caption="A slope or a curve in the residuals says that the model lacks something that no value can replace.",
+        caption="A slope or a curve in the residuals shows that the model lacks something that no value can replace.",
     )
     return scatter, residual

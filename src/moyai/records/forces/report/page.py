@@ -179,14 +179,14 @@ def _tables(found: Group) -> list[Block]:
         "variance explained",
         "drag over inertia",
         "fall of C_M",
-        "γ it stands for",
+        "equivalent γ",
     )
     blocks.append(
         Table(
             "conditioning",
             "Conditioning and circulation",
             tuple(Column(title, [row[k] for row in extra], uniform=False) for k, title in enumerate(names)),
-            note="The fall of C_M is held against the ideal coefficient of the section; γ is that of Γ = γ vx vy T.",
+            note="The fall of C_M is compared with the ideal coefficient of the section; γ is that of Γ = γ vx vy T.",
         )
     )
     return blocks

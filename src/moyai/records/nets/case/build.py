@@ -93,7 +93,7 @@ def _build(model: NetsFile, findings: Findings, folder: Path) -> tuple[NetCampai
     for key, items in (("nets", model.nets), ("runs", model.runs), ("cages", model.cages)):
         names = [item.name for item in items]
         for index in duplicates(names):
-            findings.fault((key, index, "name"), f"'{names[index]}' stands above already")
+            findings.fault((key, index, "name"), f"'{names[index]}' is already given above")
     tank: Tank | None = None
     if model.runs:
         for key in _NEEDED:

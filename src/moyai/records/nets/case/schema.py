@@ -155,7 +155,8 @@ class NetsFile(Block):
     runs: tuple[NetRunBlock, ...] = Field(default=(), description="Runs of nets and of the bare frame.")
     cages: tuple[CageRunBlock, ...] = Field(default=(), description="Runs of a moored cage with line tensions.")
     reverse_force: Truth = Field(
-        default=False, description="Whether the gauge counts forces against the water's motion. Default: false."
+        default=False,
+        description="Whether the gauge has its positive direction against the water's motion. Default: false.",
     )
     vibration: VibrationBlock = Field(default_factory=VibrationBlock, description="Vibration of the carriage.")
     law_solidity: Literal["geometric", "listed"] = Field(

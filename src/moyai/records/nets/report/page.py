@@ -197,7 +197,7 @@ def _wave_figures(waves: Group) -> list[Block]:
             (Abscissa("kc", "KC = u T / d"), Abscissa("re", "largest Re")),
             (Panel("C_D", from_zero=True), Panel("C_M", from_zero=True)),
             tuple(series),
-            "With intervals; C_M of a drag-ruled record is wide, and its interval says so.",
+            "With intervals; C_M of a drag-ruled record is uncertain, as its interval shows.",
             height=440,
         )
     ]
@@ -360,14 +360,14 @@ def _vibration(group: Group) -> list[Block]:
     if frequency is None or density is None or background is None:
         return []
     marks: tuple[Mark, ...] = ()
-    words = "No line stands out; nothing was taken out."
+    words = "No spectral line is significant; nothing was removed."
     if "line" in attributes:
         marks = (
             Mark("stop band from", x=float(attributes["low"])),
             Mark("line", x=float(attributes["line"])),
             Mark("to", x=float(attributes["high"])),
         )
-        words = f"The line stands {float(attributes['prominence']):.0f} times above the spectrum about it."
+        words = f"The line is {float(attributes['prominence']):.0f} times above the spectrum around it."
     x = {"f": frequency}
     return [
         Paragraph(

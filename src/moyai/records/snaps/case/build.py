@@ -30,7 +30,7 @@ def load_snaps(path: str | os.PathLike[str]) -> tuple[SnapRuns, CaseDocument]:
     findings = Findings(document)
     for key, names in (("cables", [item.name for item in model.cables]), ("runs", [item.name for item in model.runs])):
         for index in duplicates(names):
-            findings.fault((key, index, "name"), f"'{names[index]}' stands above already")
+            findings.fault((key, index, "name"), f"'{names[index]}' is already given above")
     runs = [_run(block, index, model, findings, Path(path).parent) for index, block in enumerate(model.runs)]
     if findings.faults:
         raise CaseError(sorted(findings.faults, key=lambda fault: (fault.line, fault.column)))

@@ -60,7 +60,7 @@ class SnapRunsFile(Block):
     moyai: Literal[1] = Field(description="Version of the format.")
     title: Annotated[str, Field(min_length=1, max_length=200)] = Field(description="Title of the report.")
     origin: Literal["measured", "generated"] = Field(
-        description="Whether the records were measured or computed; the report says so."
+        description="Whether the records were measured or computed; the report states it."
     )
     density: Density = Field(description="Density of the water.")
     gravity: Gravity = Field(description="Acceleration of gravity.")

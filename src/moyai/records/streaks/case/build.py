@@ -63,7 +63,7 @@ def _build(model: StreaksFile, findings: Findings, folder: Path) -> StreakCampai
     outline, area, words = _section(model, findings)
     names = [run.name for run in model.runs]
     for index in duplicates(names):
-        findings.fault(("runs", index, "name"), f"a run '{names[index]}' stands above already")
+        findings.fault(("runs", index, "name"), f"a run '{names[index]}' is already given above")
     runs: list[StreakRun] = []
     breadth = float(np.ptp(outline[:, 0])) if len(outline) else math.nan
     for index, block in enumerate(model.runs):
@@ -204,7 +204,7 @@ def _encloses_origin(corners: Array) -> bool:
 def _check_sizes(
     runs: Sequence[StreakRun], calm: Sequence[Recording], shape: tuple[int, int] | None, findings: Findings
 ) -> None:
-    """Hold the size of every picture against the first: one calibration holds for one size."""
+    """Compare the size of every picture with the first: one calibration holds for one size."""
     if shape is None:
         return
     places: list[tuple[KeyPath, Recording]] = [(("no_model",), item) for item in calm]
@@ -224,7 +224,7 @@ def _check_sizes(
 
 
 def _size_of(picture: Path) -> tuple[int, int] | None:
-    """Return rows and columns from the head of a file, ``None`` where it cannot tell."""
+    """Return rows and columns from the head of a file, ``None`` where it does not show them."""
     import imageio.v3 as imageio
 
     try:
@@ -267,7 +267,7 @@ def _recordings(
         twice = [picture.name for picture in pictures if picture in known]
         if twice or len(set(pictures)) < len(pictures):
             name = twice[0] if twice else next(p.name for p in pictures if pictures.count(p) > 1)
-            findings.fault(here, f"the picture '{name}' stands twice", remedy="name each picture once")
+            findings.fault(here, f"the picture '{name}' is given twice", remedy="name each picture once")
             continue
         known.update(pictures)
         groups = [pictures] if frames else [(picture,) for picture in pictures]

@@ -109,7 +109,7 @@ class TimingFrames(Block):
 class TimingExposure(Block):
     """One picture of all pulses."""
 
-    kind: Literal["exposure"] = Field(description="One picture of all pulses; on-times or powers tell the order.")
+    kind: Literal["exposure"] = Field(description="One picture of all pulses; on-times or powers give the order.")
     interval: Duration = Field(description="From the start of one pulse to the next.")
     on_time: Annotated[tuple[Duration, ...], BeforeValidator(_as_list), Field(min_length=1, max_length=200)] = Field(
         description="On-times, a pattern that repeats, such as [50 ms, 30 ms, 20 ms]."
@@ -129,7 +129,7 @@ class RecordingBlock(Block):
     """Pictures taken in one go."""
 
     pictures: Annotated[tuple[FileName, ...], Field(min_length=1, max_length=2000)] = Field(
-        description="Files in the order of time; a name with * stands for all that match, sorted."
+        description="Files in the order of time; a name with * means all that match, sorted."
     )
 
 
@@ -202,7 +202,9 @@ class LinkingBlock(Block):
     closing: Literal["harmonics", "cubic"] = Field(
         default="harmonics", description="Least squares with harmonics, or the paper's cubic. Default: harmonics."
     )
-    most_residual: PositiveLength = Field(default=8e-4, description="Roughest chain that counts. Default: 0.8 mm.")
+    most_residual: PositiveLength = Field(
+        default=8e-4, description="Largest roughness of a chain that is used. Default: 0.8 mm."
+    )
 
 
 class CirculationBlock(Block):

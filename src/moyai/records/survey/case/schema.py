@@ -198,7 +198,7 @@ class WaveKeys(Block):
     detrend: Literal["none", "mean", "linear", "quadratic", "high_pass"] = Field(
         default="linear", description="What is taken off each block; 'high_pass' takes tide and surge off."
     )
-    cutoff: Duration | None = Field(default=None, description="Period above which 'high_pass' counts as slow.")
+    cutoff: Duration | None = Field(default=None, description="Period above which 'high_pass' takes a motion as slow.")
     dead_band: NonNegativeLength = Field(
         default=0.0,
         description="The surface must leave this band about the mean on both sides for a crossing to count.",
@@ -270,7 +270,7 @@ class TensionKeys(Block):
         default="paper", description="How the angle lowers the wave height in that: cos^2, cos, not."
     )
     height_ratio: PositiveNumber = Field(default=1.8, description="Height in that over H1/3.")
-    snap_limit: PositiveForceOrNone | None = Field(default=None, description="Rise that counts as a snap event.")
+    snap_limit: PositiveForceOrNone | None = Field(default=None, description="Rise of a snap event.")
 
 
 class ResponseKeys(Block):

@@ -152,12 +152,12 @@ def _counted(counts: Array) -> str:
 
 
 def _left_out(tree: Any, gauge: int, clock: _PageClock) -> str:
-    """Return how much of the time lies in no wave that counts, where that is more than the ends of blocks explain."""
+    """Return the share of time in no wave of the statistics, where it is more than the ends of blocks explain."""
     counts, periods = (_values(tree, "waves", name)[:, gauge] for name in ("count", "mean_period"))
     share = 1.0 - float(np.nansum(counts * np.nan_to_num(periods))) / (clock.length * clock.start.size)
     # a block begins and ends inside a wave
     ends = float(np.nanmean(periods)) / clock.length if np.isfinite(periods).any() else 0.0
-    return f"; {format_percent(share)} of the time lies in no wave that counts" if share > 2.0 * ends else ""
+    return f"; {format_percent(share)} of the time is in no wave of the statistics" if share > 2.0 * ends else ""
 
 
 def _middle(values: Array) -> str:

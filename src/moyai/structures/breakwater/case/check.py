@@ -118,7 +118,8 @@ def _check_lines_in_motion(model: BreakwaterCase, findings: Findings) -> None:
         if line.drag_width > 0.0:
             findings.warn(
                 ("lines", other, "drag_width"),
-                f"'drag_width' of line '{line.name}' counts in the frequency domain alone: in motion it has its drag",
+                f"'drag_width' of line '{line.name}' is used in the frequency domain only: a line in motion has its "
+                "drag",
             )
 
 
@@ -172,7 +173,7 @@ def _check_floating(model: BreakwaterCase, hull: Hull, findings: Findings) -> fl
         findings.fault(
             ("structure", "section"),
             f"the lowest point of the section is at z = {hull.bottom:g} m",
-            allowed="0 m: z counts from the keel",
+            allowed="0 m: z is measured from the keel",
         )
         return None
     draught = unit.draught
@@ -196,7 +197,7 @@ def _check_floating(model: BreakwaterCase, hull: Hull, findings: Findings) -> fl
                 ("structure", "section", "plates"),
                 f"a plate reaches {lowest:.4g} m down in {depth:.4g} m of water at {name}",
                 allowed=f"less than {depth - draught:.4g} m below the keel",
-                remedy="shorten the plate: it would stand on the bed",
+                remedy="shorten the plate: it would reach the bed",
             )
         if 0.0 < depth <= draught:
             key = "draught" if unit.draught is not None else "mass"
@@ -204,7 +205,7 @@ def _check_floating(model: BreakwaterCase, hull: Hull, findings: Findings) -> fl
                 ("structure", key),
                 f"the body is {draught:.4g} m deep in {depth:.4g} m of water at {name}",
                 allowed=f"a draught below {depth:.4g} m",
-                remedy="it would stand on the bed",
+                remedy="it would reach the bed",
             )
     if unit.centre_of_gravity_above_keel > hull.height or unit.centre_of_gravity_above_keel < 0.0:
         findings.warn(
@@ -330,7 +331,7 @@ def _check_balance(
 ) -> None:
     """Find the rest of the unit at every water level and tell what is odd about it.
 
-    The rest does not hang on the waves; the cases of a study that differ in them alone share one search for it. Where
+    The rest is not attached to the waves; the cases of a study that differ in them alone share one search for it. Where
     files are named it is searched every time, since they may have changed.
     """
     key = f"{folder}|{model.model_dump_json(exclude={'waves', 'title', 'analyses'})}"
@@ -348,7 +349,7 @@ def _check_balance(
             if not model.structure.allow_unstable:
                 findings.fault(
                     path, notice.message, allowed="a metacentric height above 0 m",
-                    remedy=f"{notice.remedy}; where lines hold it upright on purpose, say 'allow_unstable: true'",
+                    remedy=f"{notice.remedy}; where lines hold it upright on purpose, give 'allow_unstable: true'",
                 )  # fmt: skip
                 continue
         findings.warn(path, notice.message, remedy=notice.remedy)
@@ -375,7 +376,7 @@ def _rest(problem: BreakwaterProblem) -> tuple[InputError | None, tuple[Notice, 
 
 
 def _check_lines_at_rest(model: BreakwaterCase, unit: Breakwater, environment: Environment, findings: Findings) -> None:
-    """Hold each line of the upright unit against its strength and its slack, at every water level."""
+    """Compare each line of the upright unit with its strength and its slack, at every water level."""
     from moyai.floating.statics import body_to_site
     from moyai.mooring.checks import check_line_system
     from moyai.mooring.system import LineSystem

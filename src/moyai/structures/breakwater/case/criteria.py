@@ -28,7 +28,7 @@ AFLOAT_SOURCE = "default of moyai: upright and afloat"
 #: Metacentric height over draught that Japanese practice asks of caissons afloat.
 STABLE_SHARE = 0.05
 STABLE_SOURCE = (
-    f"default of moyai: 5 % of the draught, as Japanese port practice asks of caissons afloat, {UNCONFIRMED}"
+    f"default of moyai: 5 % of the draught, as Japanese port practice requires of floating caissons, {UNCONFIRMED}"
 )
 
 

@@ -69,5 +69,5 @@ def _moorings(breakwater: Breakwater, statics: Any) -> Moorings:
                 )
             )
     if any(line.count > 1 for line in known):
-        notes.append("alike lines stand evenly along the unit: their places along the crest are not in the case")
+        notes.append("equal lines are evenly spaced along the unit: their places along the crest are not in the case")
     return Moorings(tuple(types.values()), tuple(found), tuple(notes))

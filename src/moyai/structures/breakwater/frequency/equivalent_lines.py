@@ -49,7 +49,7 @@ class _Wave:
     lines: DrivenLines
 
     def turn(self, offset: Array, motion: ComplexArray) -> tuple[Array, ComplexArray, _Answer]:
-        """Return the steps of offset and motion that the balance of mean and first harmonic asks for."""
+        """Return the steps of offset and motion that the balance of mean and first harmonic requires."""
         model, hydro, unit = self.model, self.hydro, self.model.unit
         omega = hydro.omega[0]
         tangent = unit.mooring.stiffness(offset)

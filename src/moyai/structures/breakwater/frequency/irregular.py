@@ -216,7 +216,7 @@ def _settle(
 
     The loop of P3 for a sea: drift moves the unit, the moved lines are stiffer, the stiffer unit drifts differently.
     The drift is the sum over frequencies and headings of twice the spectrum times the drift per amplitude squared.
-    ``start`` is the answer with a damping nearby, from which the loop goes on.
+    ``start`` is the answer with a damping nearby, from which the loop continues.
     """
     unit = model.unit
     weights = integration_weights(hydros[0].omega)

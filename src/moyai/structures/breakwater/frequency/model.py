@@ -145,7 +145,7 @@ def solve_about_offset(
         notices=(
             Notice(
                 "no-drift-of-given-coefficients",
-                "coefficients of a 3-D program carry no far field: no reflection, transmission or drift is computed",
+                "coefficients of a 3-D program have no far field: no reflection, transmission or drift is computed",
                 severity="information",
             ),
         ),
@@ -155,7 +155,7 @@ def solve_about_offset(
 def energy_identity(
     model: FrequencyModel, far: FarField, motions: Motions, hydro: Hydrodynamics, where: str
 ) -> tuple[IdentityCheck, ...]:
-    """Hold the loss of the moving body against the work of its damping, to the accuracy of the coefficients.
+    """Compare the loss of the moving body with the work of its damping, to the accuracy of the coefficients.
 
     A damping lid takes energy of its own, which the solve of the section holds against its own identity.
     """

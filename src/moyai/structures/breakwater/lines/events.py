@@ -55,7 +55,7 @@ def movable(unit: FloatingUnit) -> NDArray[np.bool_]:
 
 
 def out_of_range(unit: FloatingUnit, largest: Array, mean: Array) -> NDArray[np.bool_]:
-    """Return which lines at rest at every instant have peaks that such lines do not tell (no springs).
+    """Return which lines at rest at every instant have peaks that such lines do not give (no springs).
 
     Parameters
     ----------

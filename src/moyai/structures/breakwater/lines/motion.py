@@ -140,9 +140,9 @@ class LinesInMotion:
 class BodyStart:
     """Motion of the unit that a run starts from."""
 
-    #: Relative to rest; shape (3,).
+    #: Position relative to rest; shape (3,).
     position: Array
-    #: Relative to rest; shape (3,).
+    #: Velocity; shape (3,).
     velocity: Array
     #: States of the memory of the water; shape (poles,).
     memory: NDArray[np.complex128]
@@ -357,7 +357,7 @@ def _lines_in_motion(
     lengths = lines.network.bars.length
     for column, name, at_rest in zip(lines.index, lines.names, rest, strict=True):
         strand = lines.strand(name)
-        # a chain in motion may bear more at its anchor than at the fairlead
+        # a chain in motion may carry more at its anchor than at the fairlead
         ends = lines.end_tensions(name, network.position[:count], network.tension_peak[:count])
         peak[:, column] = np.maximum(np.maximum(ends[0], ends[1]), simulation.tension[:, column])
         anchor[:, column] = lines.end_tensions(name, network.position[:count], network.tension[:count])[1]

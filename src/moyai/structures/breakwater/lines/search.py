@@ -151,7 +151,7 @@ def events_in_motion(
     while open_ones:
         progress(words, len(searches) - len(open_ones), len(searches))
         each_at_once(lambda search, heard: _rerun(given, search, line, heard), open_ones, progress)
-        # The ratio is that of the whole sea, and only grows: what one realisation tells holds for all
+        # The ratio is that of the whole sea, and only grows: what one realisation gives holds for all
         ratio = _ratio(searches)
         open_ones = [search for search in searches if _is_open(search, ratio, floor)]
     progress(words, len(searches), len(searches))

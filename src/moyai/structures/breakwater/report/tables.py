@@ -222,7 +222,7 @@ def lines_at_rest(level: BreakwaterLevel) -> Table | None:
                 "%",
             ),
         ],
-        note="Values of one line; Count tells how many are alike.",
+        note="Values of one line; Count gives how many are equal.",
     )
 
 
@@ -367,7 +367,8 @@ def _regular_waves(level: BreakwaterLevel, sea: Sea, domain: str, folded: bool) 
             ""
             if domain == "frequency"
             else " Energy of the first harmonic over the incident flux: its loss is the work "
-            "of the damping, or lines carry the difference into other harmonics and K_T is not that of the whole wave."
+            "of the damping, or lines transfer the difference into other harmonics and K_T is not that of the whole "
+            "wave."
         ),
         collapsed=folded,
     )
@@ -401,7 +402,7 @@ def irregular_motions(level: BreakwaterLevel, sea: Sea) -> Table | None:
         ],
         always=3,
         note="Mean from rest; maxima are single amplitudes from the mean. Slow drift is in the motions in time "
-        "and not in those of the frequency domain, which tells it apart as a standard deviation.",
+        "and not in those of the frequency domain, which gives it separately as a standard deviation.",
     )
 
 

@@ -97,7 +97,7 @@ def read_record(level: BreakwaterLevel, run: Group) -> TimeRecord | None:
 
 
 def _analysis_begin(run: Group, time: Array, period: float) -> int:
-    """Return the first sample that counts: as the run tells it, else the last ten periods or what follows the ramp."""
+    """Return the first sample that counts: as the run gives it, else the last ten periods or what follows the ramp."""
     begin = attribute_number(run, "analysis_start")
     if not math.isfinite(begin):
         begin = attribute_number(run, "ramp")

@@ -110,7 +110,7 @@ def energy_of_period(
 
 
 def energy_checks(found: Sequence[tuple[float, EnergyOfPeriod]], where: str) -> tuple[IdentityCheck, ...]:
-    """Hold the loss of the first harmonic against its work, over all periods of a sea; none without a far field.
+    """Compare the loss of the first harmonic with its work, over all periods of a sea; none without a far field.
 
     Parameters
     ----------

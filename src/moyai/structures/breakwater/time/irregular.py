@@ -237,7 +237,7 @@ def _lines_in_motion(
         return members, [], moved, ()
     if not isinstance(shared.cummins.memory, StateSpaceMemory):
         reported = f"{unit.name}, {shared.sea.name}: lines in motion need the memory of the water as states"
-        remedy = "give structure.gap_damping_lid where water resonates between hulls, or memory: state_space"
+        remedy = "give a damping lid where water resonates between hulls, or a memory by state space"
         return members, [], moved, (Notice("lines-stay-at-rest", reported, remedy=remedy),)
     period = float(frequency.slow_sway_period) if "slow_sway_period" in frequency else 0.0
     try:
@@ -386,7 +386,7 @@ def _notices(shared: _Sea, data: xr.Dataset, frequency: xr.Dataset, moved: NDArr
                 "frequency domain, and the tensions that go with it are missing",
                 value=slow,
                 limit=0.0,
-                remedy="leave settings.time.drift at auto, or give newman",
+                remedy="leave the drift at auto, or give newman",
             )
         )
     ratio = period / shared.peak_period
@@ -412,7 +412,7 @@ def _notices(shared: _Sea, data: xr.Dataset, frequency: xr.Dataset, moved: NDArr
                 value=cycles,
                 limit=LEAST_CYCLES,
                 severity="warning" if cycles >= 1.0 else "error",
-                remedy=f"give a duration of {LEAST_CYCLES * period:.0f} s or more, or more settings.time.realisations",
+                remedy=f"give a duration of {LEAST_CYCLES * period:.0f} s or more, or more realisations",
             )
         )
     return tuple(out)

@@ -133,7 +133,7 @@ def linear_damping(model: FrequencyModel, added_mass: Array, stiffness: Array) -
 
 @dataclass(frozen=True)
 class SeaOfRun:
-    """What a run needs to know of its sea next to the forces on the unit."""
+    """What a run needs of its sea next to the forces on the unit."""
 
     waves: WaveComponents | None
     current: Current | None
@@ -208,7 +208,7 @@ def run_with_lines(
             "lines-at-rest",
             f"{unit.name}, {name}: the memory of the water has no states, which lines in motion need; the lines are at "
             "rest at every instant",
-            remedy="give structure.gap_damping_lid where water resonates between hulls",
+            remedy="give a damping lid where water resonates between hulls",
         )
         return TimeRun(name, replace(simulation, notices=(*simulation.notices, reported)), attributes)
     moving, lines = run_on_lines(

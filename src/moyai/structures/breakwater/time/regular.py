@@ -52,7 +52,7 @@ MOST_SETTLING_PERIODS = 300.0
 SETTLED = math.log(1e3)  # transients die to a thousandth
 LEAST_LOSS = 0.005  # of the incident energy
 STEADY_LIMIT = 0.01  # change of the first harmonic from one window to the next
-REPEATING_LIMIT = 0.05  # of the same; beyond it the motion has no first harmonic to speak of
+REPEATING_LIMIT = 0.05  # of the same; beyond it the motion has no appreciable first harmonic
 PERIODS_OF_NO_REPEAT = 100  # whose largest values count where the motion never repeats
 
 

@@ -69,7 +69,7 @@ def build_problem(
         For what the schema alone cannot see: closed meshes, unknown laws and lines, a cage that does not float.
     """
     if math.isinf(model.site.water_depth):
-        raise InputError("a flexible cage stands over a bed", path="site.water_depth", allowed="a finite depth")
+        raise InputError("a flexible cage needs a bed", path="site.water_depth", allowed="a finite depth")
     assert isinstance(model.structure, parts.FlexibleCageStructure)
     water = Water(model.site.water_depth, model.site.density, model.site.gravity)
     levels, chosen = model.site.water_levels, model.settings.water_levels
@@ -141,11 +141,11 @@ def rope_of(entry: parts.RopeEntry, path: str) -> LineProperties:
             found = line_type(entry.catalogue, entry.diameter)
             for key in ("mass", "breaking_load", *_OF_OWN_ROPE):
                 if getattr(entry, key) is not None:
-                    raise InputError(f"'{key}' belongs to a rope of its own EA, not to the catalogue", path=key)
+                    raise InputError(f"'{key}' belongs to a rope with a stated EA, not to the catalogue", path=key)
             return found
         if entry.mass is None or entry.breaking_load is None:
             missing = "mass" if entry.mass is None else "breaking_load"
-            raise InputError(f"a rope of its own EA needs '{missing}'", path=missing)
+            raise InputError(f"a rope with a stated EA needs '{missing}'", path=missing)
         assert entry.axial_stiffness is not None
         own = {key: getattr(entry, key) for key in _OF_OWN_ROPE if getattr(entry, key) is not None}
         taken = {**_OF_OWN_ROPE, "volume": math.pi / 4.0 * entry.diameter**2, **own}
@@ -183,7 +183,9 @@ def _grid_of(entry: parts.GridEntry) -> GridMooring:
         for k, segment in enumerate(entry.anchor_line)
     )
     if entry.bridle_length is not None and entry.bridle_slack != 0.0:
-        raise InputError("'bridle_length' and 'bridle_slack' say the same thing", path="structure.mooring.bridle_slack")
+        raise InputError(
+            "'bridle_length' and 'bridle_slack' give the same quantity", path="structure.mooring.bridle_slack"
+        )
     frame = rope_of(entry.frame_rope, "structure.mooring.frame_rope")
     bridle = rope_of(entry.bridle, "structure.mooring.bridle")
     with _under("structure.mooring"):

@@ -99,7 +99,7 @@ def net_of(entry: parts.RigidNet) -> Net:
 
 
 def law_of(entry: parts.NetDrag) -> NetLaw:
-    """Return the law of a net entry; options that the law does not know are left out."""
+    """Return the law of a net entry; options that the law does not have are left out."""
     try:
         law = net_law(entry.law)
         options: dict[str, object] = {
@@ -110,7 +110,7 @@ def law_of(entry: parts.NetDrag) -> NetLaw:
         if entry.solidity is not None:
             if "solidity" not in type(law).__dataclass_fields__:
                 raise InputError(
-                    f"the law '{entry.law}' knows one solidity only", path="solidity", remedy="leave 'solidity' out"
+                    f"the law '{entry.law}' is for one solidity only", path="solidity", remedy="leave 'solidity' out"
                 )
             options["solidity"] = entry.solidity
         return net_law(entry.law, **options)
@@ -126,7 +126,9 @@ def cage_of(unit: schema.RigidCageStructure, patches: int) -> RigidCage:
         faces = shapes.box_patches(*extent, net.faces, patches)
         rods = shapes.box_rods(*extent, unit.frame.diameter)
         if unit.floats.per_side is None:
-            raise InputError("a box counts its floats by side", path="structure.floats.count", remedy="give 'per_side'")
+            raise InputError(
+                "the floats of a box are counted by side", path="structure.floats.count", remedy="give 'per_side'"
+            )
         level = 0.5 * shape.height + unit.floats.above_top
         points = shapes.box_floats(shape.length, shape.width, level, unit.floats.per_side)
     else:
@@ -135,7 +137,9 @@ def cage_of(unit: schema.RigidCageStructure, patches: int) -> RigidCage:
         rods = shapes.cylinder_rods(shape.diameter, shape.height, unit.frame.diameter)
         if unit.floats.count is None:
             raise InputError(
-                "a cylinder counts its floats around the ring", path="structure.floats.per_side", remedy="give 'count'"
+                "the floats of a cylinder are counted around the ring",
+                path="structure.floats.per_side",
+                remedy="give 'count'",
             )
         points = shapes.ring_floats(shape.diameter, 0.5 * shape.height + unit.floats.above_top, unit.floats.count)
     floats = Floats(points, unit.floats.diameter, unit.floats.mass, unit.floats.drag, unit.floats.added_mass)
@@ -268,7 +272,7 @@ def _setting(entry: Any, keys: tuple[str, ...]) -> tuple[Any, float]:
         value = getattr(entry, key, None)
         if value is not None:
             return key, float(value)
-    raise AssertionError("the schema asks for one of them")
+    raise AssertionError("the schema requires one of them")
 
 
 def _own_plan(line: parts.OwnLine) -> RigidLinePlan:

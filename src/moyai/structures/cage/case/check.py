@@ -27,7 +27,7 @@ def check(model: schema.CageCase, findings: Findings, folder: Path) -> None:
 
 
 def _check_waves(model: schema.CageCase, findings: Findings, folder: Path) -> None:
-    """Hold every sea state against breaking and the limits of linear theory, at every water level."""
+    """Compare every sea state with breaking and the limits of linear theory, at every water level."""
     from moyai.sea.validity import check_spectrum, check_wave
 
     for index, state in enumerate(model.waves):
@@ -44,7 +44,7 @@ def _check_waves(model: schema.CageCase, findings: Findings, folder: Path) -> No
                 rigid = model.structure.model == "rigid"
                 if rigid and state.theory == "stream_function":
                     findings.fault(
-                        wave_path(findings, index, "theory"), "a rigid cage knows linear waves only",
+                        wave_path(findings, index, "theory"), "a rigid cage is for linear waves only",
                         allowed="automatic, linear", remedy="use 'model: flexible' for steep waves",
                     )  # fmt: skip
                     break

@@ -13,7 +13,7 @@ from moyai.structures.cage.case import schema
 from moyai.structures.cage.case.check_rigid import check_law_and_water
 from moyai.structures.cage.case.schema_flexible import FlexibleCageStructure, GridEntry, RopeEntry
 
-#: Share of the way that anchor lines may lack at rest; fibre ropes bear it as a pretension
+#: Share of the way that anchor lines may lack at rest; fibre ropes take it as a pretension
 _USUAL_STRETCH = 0.02
 
 
@@ -51,7 +51,7 @@ def _check_anchor_lines(model: schema.CageCase, unit: FlexibleCageStructure, fin
     if math.isfinite(way) and length < (1.0 - _USUAL_STRETCH) * way:
         findings.warn(
             ("structure", "mooring", "anchor_distance"),
-            f"the anchors stand farther than their lines of {length:g} m reach: {way:.4g} m from frame to anchor at "
+            f"the anchors are farther than their lines of {length:g} m reach: {way:.4g} m from frame to anchor at "
             f"{name}, a stretch of {100.0 * (way / length - 1.0):.3g} % before any load",
             allowed=f"usually a way of at most {length / (1.0 - _USUAL_STRETCH):.4g} m",
             remedy="bring the anchors nearer or lengthen the lines",

@@ -169,7 +169,7 @@ def _check_rest(problem: RigidCageProblem, findings: Findings) -> bool:
 
 
 def _check_waves(problem: RigidCageProblem, findings: Findings) -> None:
-    """Try to make every wave, and hold the speeds it brings against the range of the net law."""
+    """Try to make every wave, and compare the speeds it brings with the range of the net law."""
     from moyai.sea.states import IrregularSea
     from moyai.structures.cage.rigid.waves import current_along, waves_of
 

@@ -38,7 +38,7 @@ def derived_numbers(case: Case) -> tuple[Number, ...]:
             pipe = design.collar.pipe
             numbers.extend(
                 [
-                    Number("Collar", name, "bears wholly immersed", spare, "N"),
+                    Number("Collar", name, "buoyancy, wholly immersed", spare, "N"),
                     Number("Collar", name, "EA of a ring", pipe.axial_stiffness, "N"),
                     Number("Collar", name, "EI of a ring", design.collar.bending_stiffness, "N m2"),
                 ]

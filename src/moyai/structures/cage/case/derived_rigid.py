@@ -64,7 +64,7 @@ def _rest(problem: RigidCageProblem, lines: tuple[CageLine, ...], name: str, lev
     group = "At rest"
     yield Number(group, name, "middle of the cage, floating freely", free.middle_z, length)
     yield Number(group, name, "floats in water, floating freely", 100.0 * free.immersion, "", 3)
-    yield Number(group, name, "pull that drowns the floats", drowning_depth(cage, free), length, 3)
+    yield Number(group, name, "pull that submerges the floats", drowning_depth(cage, free), length, 3)
     if lines:
         yield Number(group, name, "middle of the cage, moored", rest.middle_z, length)
         yield Number(group, name, "floats in water, moored", 100.0 * rest.immersion, "", 3)

@@ -74,7 +74,7 @@ class RigidCageStructure(Block):
         default=(), description="Weights fixed to the cage. Default: none."
     )
     weight: RigidWeight | None = Field(
-        default=None, description="Weight as the cage was weighed; held against the sum of its parts."
+        default=None, description="Weight as the cage was weighed; compared with the sum of its parts."
     )
     mooring: CageMooring | None = Field(default=None, description="Lines; the cage floats freely when absent.")
 

@@ -53,7 +53,7 @@ class PipeEntry(Block):
     drag_along: NonNegativeNumber = Field(default=0.1, description="C_d of flow along the pipe. Default: 0.1.")
     added_mass: NonNegativeNumber = Field(default=1.0, description="C_a of flow across the pipe. Default: 1.")
     extra_mass: MassPerLength = Field(
-        default=0.0, description="What the pipe carries besides its own wall, per length. Default: 0."
+        default=0.0, description="Mass in the pipe besides its own wall, per length. Default: 0."
     )
 
 

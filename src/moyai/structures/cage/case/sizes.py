@@ -1,4 +1,4 @@
-"""Sizes of a net cage that the numbers of its case are held against."""
+"""Sizes of a net cage that the numbers of its case are compared with."""
 
 from __future__ import annotations
 

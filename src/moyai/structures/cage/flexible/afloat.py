@@ -15,7 +15,7 @@ _STRETCH = 0.15
 
 
 def floating_balance(design: CageDesign, water: Water) -> tuple[float, float]:
-    """Return the submerged weight of one cage below its collar, and what the collar can bear beyond its own weight [N].
+    """Return the submerged weight of one cage below its collar, and the buoyancy of the collar less its weight [N].
 
     Net, growth, sinkers, sinker tube and centre weight against the pipes of the collar wholly immersed.
     """
@@ -59,7 +59,8 @@ def check_moored(design: CageDesign, mooring: GridMooring, water: Water, bed: Be
         )
     if weight >= spare:
         raise InputError(
-            f"the cage does not float: net and weights weigh {weight:.4g} N in water, the collar bears {spare:.4g} N "
+            f"the cage does not float: net and weights weigh {weight:.4g} N in water, the buoyancy of the collar is "
+            f"{spare:.4g} N "
             "wholly immersed",
             parameter="collar.pipe.diameter",
             allowed=f"weights below {spare:.4g} N",

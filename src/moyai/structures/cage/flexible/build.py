@@ -88,7 +88,7 @@ def _outline(design: CageDesign, around: int, offset: float) -> Array:
 
 
 def pipe_type(name: str, pipe: Pipe, density: float, length: float) -> BarType:
-    """Return the bar of a pipe, which bears compression; its bending belongs to the ring."""
+    """Return the bar of a pipe, which carries compression; its bending belongs to the ring."""
     mass = pipe.mass_per_length(density)
     return BarType(
         name,

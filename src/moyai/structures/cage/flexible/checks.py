@@ -46,7 +46,7 @@ def problem_notices(problem: FlexibleCageProblem) -> tuple[Notice, ...]:
                 f"{model.mesh.around} knots around and {model.mesh.down} meshes down resolve the net coarsely",
                 float(model.mesh.around),
                 16.0,
-                remedy="refine the mesh until volume and drag stand",
+                remedy="refine the mesh until volume and drag no longer change",
                 source="mesh study in docs/validation/cage_flexible.md",
             )
         )
@@ -72,7 +72,7 @@ def design_speed(problem: FlexibleCageProblem) -> float:
 
 
 def rest_checks(level: str, statics: xr.Dataset) -> tuple[IdentityCheck, ...]:
-    """Hold the pull on the anchors against the drag of the water on all parts."""
+    """Compare the pull on the anchors with the drag of the water on all parts."""
     moving = statics.variables["current_speed"].values > 0.0
     if not moving.any():
         return ()
@@ -162,7 +162,7 @@ def settling_notices(sea: str, series: xr.Dataset) -> tuple[Notice, ...]:
             "cage-not-settled",
             f"{sea}, {series.attrs['wave']}: after {periods:.3g} periods {name} still changes by {change:.2g} % a "
             "period: what has not settled is a bound",
-            change, severity="warning", remedy="give more 'settings.flexible.most_periods'",
+            change, severity="warning", remedy="give more periods at most",
         ),
     )  # fmt: skip
 

@@ -51,7 +51,7 @@ class CageNet:
     cone_depth: float = 0.0
     #: C_a of a twine across it [-].
     added_mass: float = 1.0
-    #: Twine that bears, without growth [m]; that of ``net`` when left out.
+    #: Twine that carries, without growth [m]; that of ``net`` when left out.
     clean_diameter: float | None = None
     #: Of the growth between the clean twine and the twine of ``net`` [kg/m3].
     growth_density: float = 0.0

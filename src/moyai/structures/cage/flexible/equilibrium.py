@@ -1,4 +1,4 @@
-"""A flexible cage at rest in a current, and the numbers that a designer asks for."""
+"""A flexible cage at rest in a current, and the numbers that a designer requires."""
 
 from __future__ import annotations
 
@@ -64,7 +64,7 @@ def solve_rest(
     """Find a cage at rest in a current.
 
     Dynamic relaxation leads, which ends in no unstable rest, then Newton's method. Where slack net flutters and will
-    not come to rest, the true motion, which the water damps, goes on from there.
+    not come to rest, the true motion, which the water damps, continues from there.
 
     Parameters
     ----------

@@ -111,7 +111,7 @@ def laws_in_wave(
 ) -> tuple[xr.Dataset, list[str]]:
     """Return the numbers of a wave under the law of the case, the lowest and the highest, and which of them failed.
 
-    Runs in regular waves go on from the end of that under the law of the case for six periods, which tell their limit;
+    Runs in regular waves go on from the end of that under the law of the case for six periods, which give their limit;
     a sea is run again over the six periods about its governing moment, from the rest under each law. All on the coarser
     mesh: what counts is the ratio.
 

@@ -29,9 +29,9 @@ class CageParts:
     collar_bars: tuple[IntArray, ...]
     #: Bars of the sinker tube.
     ring_bars: IntArray
-    #: Panels.
+    #: Panels of the wall.
     wall_panels: IntArray
-    #: Panels.
+    #: Panels of the bottom.
     bottom_panels: IntArray
     #: Bars of grouped twines.
     net_bars: IntArray
@@ -74,9 +74,9 @@ class CageNetwork:
     lines: tuple[LinePart, ...]
     #: Nodes of the anchors.
     anchors: IntArray
-    #: Nodes.
+    #: Nodes of the buoys.
     buoys: IntArray
-    #: Nodes.
+    #: Nodes of the sinkers.
     sinkers: IntArray
 
     def net_tension(self, tension: Array) -> Array:

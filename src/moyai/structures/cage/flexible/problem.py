@@ -28,7 +28,7 @@ class FlexibleSettings:
     current_speeds: tuple[float, ...] = ()
     #: Whether the rest in the current of the site is found under every law of nets that is valid there.
     other_laws: bool = True
-    #: For a draft: a rest goes on from one before that is near, to a thousandth of the largest tension.
+    #: For a draft: an equilibrium continues from one before that is near, to a thousandth of the largest tension.
     nominal: bool = False
     #: Wave periods that are run in regular waves after the ramp, at least; more until they repeat.
     periods: int = 8
@@ -60,9 +60,9 @@ class FlexibleCageProblem:
     environment: Environment
     seas: tuple[RigidCageWaves | IrregularSea, ...]
     settings: FlexibleSettings
-    #: Kept with the result.
+    #: Text of the case file, kept with the result.
     case_text: str = ""
-    #: Kept with the result.
+    #: Hash of that text.
     case_hash: str = ""
     criteria: tuple[Criterion, ...] = ()
     model: ClassVar[str] = "flexible"

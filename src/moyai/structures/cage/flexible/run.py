@@ -257,7 +257,7 @@ def _law_steps(
         collected.groups[case.path] = found
         if missing:
             words = f"{case.sea}, {case.run.wave.name}: the run under other laws of nets fails ({', '.join(missing)})"
-            remedy = "run the case under the other laws too ('structure.net.law')"
+            remedy = "run the case under the other laws of the net too"
             collected.notices.append(Notice("laws-not-run", words, severity="warning", remedy=remedy))
         yield
 

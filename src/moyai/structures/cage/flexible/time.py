@@ -162,7 +162,7 @@ class _Settling:
         return np.array([-least, moved, net, *(float(peak[:, own].max()) for own in self._strands)])
 
     def _repeats(self) -> bool:
-        """Return whether volume, offset, net, anchors and lines have settled, lines against the one that bears most."""
+        """Return whether volume, offset, net, anchors and lines have settled, lines against the most loaded one."""
         table = np.array(self._highest)
         columns = [table[:, 0], table[:, 1], table[:, 2]]
         # an offset within a hundredth of the cage is that of a held collar
@@ -209,7 +209,7 @@ def unsettled(run: xr.Dataset) -> dict[str, float]:
     out = {}
     for name, (series, scale, when) in found.items():
         values = by_period(when, series, period, ramp)
-        # one that never repeats is a chance, if its record is long enough to tell it
+        # one that never repeats is a chance, if its record is long enough to show it
         known = scatters(values, scale) and values.size >= PERIODS * LEAST_BLOCKS
         if not is_settled(values, scale) and not known:
             out[name] = change_per_period(values) / max(scale, 1e-300)

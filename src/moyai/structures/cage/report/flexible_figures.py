@@ -82,7 +82,7 @@ def drag_figure(level: CageLevel) -> Figure | None:
         (Abscissa("speed", "current at the surface", "m/s"),),
         (Panel("drag along the current", unit, from_zero=True), Panel("over U², first = 1", "", from_zero=True)),
         tuple(series),
-        "A net that gives way bears less than the square of the speed would.",
+        "Drag grows more slowly than the square of the speed where the net deforms.",
         marks=design_mark(level),
         height=480,
     )

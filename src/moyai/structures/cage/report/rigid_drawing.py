@@ -49,7 +49,7 @@ def elevation_drawing(level: CageLevel) -> Drawing | None:
     half = max(0.5 * (right - left) + pad, 1.1 * (top - floor))
     middle = 0.5 * (left + right)
     extent = (middle - half, middle + half, floor, top)
-    sketch = Sketch(extent, width=920.0, margin=(10.0, 12.0, 10.0, 34.0), title="Cage at rest on its lines")
+    sketch = Sketch(extent, width=920.0, margin=(10.0, 12.0, 10.0, 34.0), title="Cage in equilibrium on its lines")
     sketch.rectangle(extent[0], 0.0, extent[1], low if bed is not None else floor, "water")
     if bed is not None:
         sketch.rectangle(extent[0], bed, extent[1], floor, "bed")

@@ -226,7 +226,7 @@ def tension_table(level: CageLevel, sea: Group) -> Table | None:
         key(level, sea.name, "tensions"),
         f"Line tensions: {sea.name}",
         tuple(columns),
-        note=("" if parted else "The lines have no weight: both ends carry the same. ")
-        + "Peaks are found within the time steps. They grow with the stiffness of the lines, see there.",
+        note=("" if parted else "The lines have no weight: both ends have the same tension. ")
+        + "Peaks are found within the time steps. They grow with the stiffness of the lines.",
         emphasised=(governing,) if peak[:, :, 0].max() > 0.0 else (),
     )

@@ -130,8 +130,8 @@ def animation(level: CageLevel, sea: str, record: RigidRecord) -> Animation | No
         key(level, sea, record.run.name, "animation"),
         f"Animated section: {record.label}",
         scene,
-        f"To scale; opened at the {what}, t = {moment:.2f} s. Water: undisturbed linear wave. Lines hang through where "
-        "they are slack.",
+        f"To scale; opened at the {what}, t = {moment:.2f} s. Water: undisturbed linear wave. Slack lines are drawn "
+        "sagging.",
         picture=with_colours(still),
     )
 
@@ -196,7 +196,7 @@ def _surface(
     if record.regular:
         delay = sense * x / record.wavelength * record.period
         inside = np.clip(times[:, None] - delay[None, :], record.time[0], record.time[-1])
-        # a steady wave goes on beyond the end of its record
+        # a steady wave continues beyond the end of its record
         beyond = times[:, None] - delay[None, :] > record.time[-1]
         inside = np.where(beyond, times[:, None] - delay[None, :] - record.period, inside)
         return Surface(x, np.interp(inside.reshape(-1), record.time, record.elevation).reshape(inside.shape))

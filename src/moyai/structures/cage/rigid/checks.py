@@ -22,7 +22,7 @@ LARGEST_CAGE = 0.5
 
 
 def mass_checks(cage: RigidCage) -> tuple[IdentityCheck, ...]:
-    """Hold the mass of the parts against the whole."""
+    """Compare the mass of the parts with the whole."""
     parts = (
         cage.floats.mass * len(cage.floats.points)
         + cage.net_mass * cage.patches.area
@@ -44,7 +44,7 @@ def rest_checks(
     free: RigidCageEquilibrium,
     rest: RigidCageEquilibrium,
 ) -> tuple[IdentityCheck, ...]:
-    """Hold the rest against Archimedes' law, written without the code that found it."""
+    """Compare the rest with Archimedes' law, written without the code that found it."""
     found = [IdentityCheck(f"{name}: forces at rest", rest.residual, 1e-8, "weight, buoyancy and lines balance")]
     if problem.environment.current is None and _wholly_wet(problem, rest):
         cage = problem.cage
@@ -89,7 +89,7 @@ def cage_notices(problem: RigidCageProblem) -> tuple[Notice, ...]:
         found.append(
             Notice(
                 "net-law-unconfirmed",
-                f"the net law '{problem.cage.law.name}' was written down from works that use it",
+                f"the net law '{problem.cage.law.name}' was taken from works that use it",
                 severity="information",
                 remedy="hold it against its source before design use",
                 source=problem.cage.law.source,
@@ -142,7 +142,7 @@ def level_notices(
 def run_checks(
     name: str, problem: RigidCageProblem, run: RigidCageRun, lines: tuple[CageLine, ...]
 ) -> tuple[IdentityCheck, ...]:
-    """Hold the tensions against the length of the lines, found from the motion without the code that marched it."""
+    """Compare the tensions with the length of the lines, found from the motion without the code that marched it."""
     label = f"{name}, {run.wave.name}"
     state = run.march.state
     found = [IdentityCheck(f"{label}: finite motion", 0.0 if np.isfinite(state).all() else math.nan, 0.5)]
@@ -169,10 +169,10 @@ def run_checks(
 
 
 def run_notices(problem: RigidCageProblem, run: RigidCageRun, lines: tuple[CageLine, ...] = ()) -> tuple[Notice, ...]:
-    """Hold a run against the range of its net law, the size of the cage, the bed, and breaking loads."""
+    """Compare a run with the range of its net law, the size of the cage, the bed, and breaking loads."""
     cage, wave = problem.cage, run.wave
     found = list(_law_notices(problem, run))
-    found += theory_limit(wave, "lower or lengthen the wave, or use 'model: flexible', which knows steep waves")
+    found += theory_limit(wave, "lower or lengthen the wave, or use 'model: flexible', which covers steep waves")
     size = max(cage.extent)
     if size > LARGEST_CAGE * wave.wavelength:
         found.append(
@@ -205,13 +205,14 @@ def run_notices(problem: RigidCageProblem, run: RigidCageRun, lines: tuple[CageL
                 limit=math.radians(60.0),
                 severity="error",
                 remedy="check centre of gravity and moorings",
+                unit="rad",
             )
         )
     return tuple(found)
 
 
 def _law_notices(problem: RigidCageProblem, run: RigidCageRun) -> tuple[Notice, ...]:
-    """Hold the speeds of water past the net against the law: the relative speed at the middle of the cage."""
+    """Compare the speeds of water past the net with the law: the relative speed at the middle of the cage."""
     state, wave = run.march.state, run.wave
     water = wave.components.water
     assert water is not None

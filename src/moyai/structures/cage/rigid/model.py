@@ -27,9 +27,9 @@ class RigidLinePlan:
     name: str
     #: x, z from the middle of the cage [m].
     attachment: tuple[float, float]
-    #: [m].
+    #: x of the anchor [m].
     anchor_x: float
-    #: [m].
+    #: Height of the anchor above the bed [m].
     anchor_above_bed: float
     #: What fixes the length, with ``value``: how far the lines pull the cage under [m], tension at rest [N], length
     #: beyond the span of the freely floating cage [m], unstretched length [m]. Lines of ``pull_down`` share one

@@ -163,9 +163,9 @@ def disc(radius: float, level: float, count: int) -> Patches:
 class Rod:
     """A round rod."""
 
-    #: From the middle of the cage [m].
+    #: One end, from the middle of the cage [m].
     start: tuple[float, float, float]
-    #: From the middle of the cage [m].
+    #: The other end, from the middle of the cage [m].
     end: tuple[float, float, float]
     #: [m].
     diameter: float
@@ -217,16 +217,16 @@ class RigidCage:
     net: Net
     #: Drag of the net.
     law: NetLaw
-    #: Mass and solid volume per outline area [kg/m2].
+    #: Mass of the net per outline area [kg/m2].
     net_mass: float
-    #: Mass and solid volume per outline area [m].
+    #: Solid volume of the net per outline area [m].
     net_volume: float
     #: C_a of twine [-].
     net_added_mass: float
     rods: tuple[Rod, ...]
-    #: [-].
+    #: Drag coefficient of the rods [-].
     rod_drag: float
-    #: [-].
+    #: Added-mass coefficient of the rods [-].
     rod_added_mass: float
     #: Length along x, width and height, for drawings and attachment points [m].
     extent: tuple[float, float, float]

@@ -167,7 +167,8 @@ def _require_carried(
     if asked > carried:
         equal = carried / max(sum(steep), 1e-12)
         raise InputError(
-            f"the pretension pulls the cage down with {asked:.4g} N; its floats carry {carried:.4g} N beyond its "
+            f"the pretension pulls the cage down with {asked:.4g} N; the buoyancy of its floats is {carried:.4g} N "
+            "beyond its "
             "weight",
             parameter="mooring.pretension",
             allowed=f"less than about {equal:.4g} N in each line",
@@ -201,7 +202,7 @@ def _root(residual: Callable[[Array], Array], start: Array) -> tuple[Array, floa
 
 
 def _require_reach(line: CageLine, cage: RigidCage, water: Water, free: RigidCageEquilibrium) -> None:
-    """Refuse a line so short that it drowns the cage."""
+    """Refuse a line so short that it submerges the cage."""
     span = line.span(free.place, cage.centre)
     if line.length >= span:
         return

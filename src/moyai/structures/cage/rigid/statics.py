@@ -136,7 +136,7 @@ def require_floating(cage: RigidCage, water: Water) -> None:
         f"the cage does not float: it weighs {weight:.4g} N in water, and its {len(cage.floats.points)} floats carry "
         f"{max(net_lift, 0.0):.4g} N beyond their own weight",
         parameter="floats",
-        allowed="floats that carry more than the cage weighs in water",
+        allowed="floats with more buoyancy than the cage weighs in water",
         remedy=remedy,
     )
 

@@ -29,13 +29,13 @@ class March:
     tension: Array
     #: Largest tension around the row, found within the steps [N]; shape (rows, lines).
     tension_peak: Array
-    #: What it took.
+    #: Steps taken.
     steps: int
-    #: What it took.
+    #: Steps refused.
     refused: int
-    #: What it took.
+    #: Events found.
     events: int
-    #: What it took.
+    #: Evaluations of the forces.
     evaluations: int
     #: ``converged``, ``not_converged`` or ``interrupted``.
     status: str
@@ -50,7 +50,7 @@ def scales(packed: PackedCage, size: float) -> Array:
 def longest_steps(packed: PackedCage, state: Array, period: float) -> tuple[float, float]:
     """Return the longest step with slack and with taut lines [s] [eq:cage-longest].
 
-    A twentieth of the period; with taut lines no longer than explicit steps bear without feeding an oscillation on
+    A twentieth of the period; with taut lines no longer than explicit steps allow without feeding an oscillation on
     the lines, one radian of it. Six places within every step are looked at, so that no bounce goes unseen.
     """
     longest = period / 20.0

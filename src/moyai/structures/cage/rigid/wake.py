@@ -34,7 +34,7 @@ def shelter(cage: RigidCage, current: CurrentProfile, water: Water, kinematic_vi
     if cage.wake == "none" or not walls.any():
         return np.ones(len(points))
     deepest = -water.depth if math.isfinite(water.depth) else -100.0
-    # the top of the cage about at the surface; the height only finds the speed that the law of the wake asks for
+    # the top of the cage about at the surface; the height only finds the speed that the law of the wake requires
     heights = np.clip(points[:, 2] - 0.5 * cage.extent[2], deepest, 0.0)
     speed = current.in_depth(water.depth).velocity(heights)[:, 0]
     angle = np.zeros(len(points))

@@ -153,7 +153,7 @@ def anchor_notices(
         notices.append(
             Notice(
                 "curtain-no-pretension",
-                "without a current and without 'structure.anchors.pretension' the rope has no steady tension",
+                "without a current and without a pretension of the anchors the rope has no steady tension",
                 severity="information",
                 source="Tabata et al.: pretension is left out",
             )

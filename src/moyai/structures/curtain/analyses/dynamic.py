@@ -37,7 +37,7 @@ class SpanLoad(NamedTuple):
     """Highest tension of a component, the run in which it stands, whether smaller cells give more, and what is judged.
 
     Tensions in N, N/m; what is judged is the upper end of the interval of the mean, the tension itself without one.
-    ``open`` tells that some run, this one or another, leaves the component open upwards.
+    ``open`` states that some run, this one or another, leaves the component open upwards.
     """
 
     load: float
@@ -189,9 +189,9 @@ def _steadied(first: DynamicRun, run: DynamicRun, place: str) -> tuple[Notice, .
     if first.history.status == "converged":
         gained, taken = run_checks(first, "")
         why = (
-            f"{100 * gained.value:.3g} % of the energy that went through the span came from nowhere"
+            f"{100 * gained.value:.3g} % of the energy that went through the span is an error of the energy balance"
             if taken.passed
-            else f"viscosity took {taken.value:.3g} times per period what the span ever held"
+            else f"viscosity took {taken.value:.3g} times per period the largest energy of the span"
         )
     return (
         Notice(
@@ -203,7 +203,7 @@ def _steadied(first: DynamicRun, run: DynamicRun, place: str) -> tuple[Notice, .
 
 
 def _models(unit: LevelCurtain, settings: CurtainSettings) -> xr.Dataset | None:
-    """Return the peaks of models A and A2 at the start speed, to hold the dynamic peak against."""
+    """Return the peaks of models A and A2 at the start speed, to compare the dynamic peak with."""
     import xarray as xr
 
     speed = settings.impact.start_speed or unit.normal_speed

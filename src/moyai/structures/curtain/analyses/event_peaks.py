@@ -31,7 +31,7 @@ MESH_CHANGE = 0.2
 REPEATING = 0.05
 
 #: What the growth of a tension with the cells is continued to, over the cells of the finest mesh: some 0.2 m, the
-#: spacing of eyelets, within which seams bear and not the sheet; and its steepest power, that near a point load.
+#: spacing of eyelets, within which seams carry and not the sheet; and its steepest power, that near a point load.
 SMALLER, STEEPEST = 4.0, 1.0
 #: What a tension may grow by from the coarsest mesh of the default runs to the next: in ordinary curtains up to 1.7 for
 #: cables and lines and 2.9 for sheets, both in the snap of a release.
@@ -80,7 +80,7 @@ class EventPeak:
     means: tuple[float, ...] = ()
     #: Whether it is of one realisation of a random sea.
     alone: bool = False
-    #: Judged end as the change from mesh to mesh goes on: of the skirt to cells :data:`SMALLER` times smaller, of
+    #: Judged end as the change from mesh to mesh continues: of the skirt to cells :data:`SMALLER` times smaller, of
     #: cables and lines at first order [N, N/m]; infinite where one realisation leaves it open, NaN with one mesh.
     ceiling: float = math.nan
 
@@ -91,7 +91,7 @@ class EventPeak:
 
     @property
     def end(self) -> float:
-        """Where it is judged: of a bound from below where its growth goes on to."""
+        """Where it is judged: of a bound from below where its growth continues to."""
         return self.ceiling if self.at_least else self.judged
 
     @property
@@ -101,7 +101,7 @@ class EventPeak:
 
 
 def event_peak(samples: Sequence[EventSample], event: str, component: str) -> EventPeak | None:
-    """Return the highest tension of a component in an event; None where it bears none.
+    """Return the highest tension of a component in an event; None where it carries none.
 
     Parameters
     ----------
@@ -152,7 +152,7 @@ def event_peak(samples: Sequence[EventSample], event: str, component: str) -> Ev
 def _alike(found: EventPeak, like: EventPeak, own: Array, runs: Sequence[EventSample], component: str) -> EventPeak:
     """Return a peak with the scatter and the growth of another event, which was run more often and on more meshes.
 
-    One realisation lies at most so far below the mean as Student's value tells of the scatter of the others, which
+    One realisation lies at most so far below the mean as Student's value gives for the scatter of the others, which
     are as many as there are on the mesh that has most.
     """
     by_mesh: dict[tuple[int, int], list[EventSample]] = {}
@@ -239,7 +239,7 @@ def governing_peaks(samples: Sequence[EventSample]) -> dict[str, tuple[str, Even
 
 
 def leading_end(samples: Sequence[EventSample], component: str) -> tuple[str, EventPeak] | None:
-    """Return the event of a component that is judged highest, each at its own end; None where none bears it.
+    """Return the event of a component that is judged highest, each at its own end; None where none carries it.
 
     An event on the coarsest of several meshes alone has :data:`COARSE_GROWTH` of its judged value as its end.
     """
@@ -327,7 +327,7 @@ def event_band(table: xr.Dataset, event: str, component: str) -> tuple[float, fl
 
 
 def ceiling_of(table: xr.Dataset, event: str, component: str) -> float:
-    """Return the end to which the growth of an event with the cells goes on, or that of a known one that is higher.
+    """Return the end to which the growth of an event with the cells continues, or that of a known one that is higher.
 
     NaN where a mesh is missing; another event that is open has an end of its own.
     """
@@ -363,7 +363,7 @@ def mesh_notices(
     said = "; ".join(
         f"{name} in '{event}' {spoken(peak.means[0], units.get(name, 'N'), 3)} on the coarser mesh, "
         f"{spoken(peak.means[1], units.get(name, 'N'), 3)} on the finer"
-        + (", so that the number is a bound from below" if peak.at_least else ", and the larger counts")
+        + (", so that the number is a bound from below" if peak.at_least else ", and the larger is used")
         for name, event, peak in apart
     )
     return (

@@ -39,7 +39,7 @@ class ImpactAnswer:
     design_tension: float
     #: The skirt that bulges; None where no chord is known.
     skirt: BulgingSkirt | None
-    #: Ends of the band of the tension over ``design_tension`` [-]: the lowest of the models that count with the start
+    #: Ends of the band of the tension over ``design_tension`` [-]: the lowest of the models of the design with start
     #: speed of low drag, and the design model with that of high drag [eq:impact-band].
     uncertainty: tuple[float, float]
 
@@ -104,7 +104,7 @@ def start_speed(unit: LevelCurtain, settings: ImpactSettings) -> tuple[float, st
         raise InputError(
             "the start speed of the impact needs a current along the normal",
             parameter="settings.impact.start",
-            remedy="give 'current', or 'settings.impact.start_speed'",
+            remedy="give a current, or the start speed of the impact",
         )
     if settings.start == "current":
         return current, "current, mean over the skirt"
@@ -199,7 +199,7 @@ def counts(model: str) -> bool:
 def skirt_tension(answer: ImpactAnswer, tension: float) -> float:
     """Return the tension of the skirt per width [N/m] that goes with a sum of cable tensions [N].
 
-    Each cable bears half of the load on the section, sigma d0/2; the skirt is an arc that stretches.
+    Each cable carries half of the load on the section, sigma d0/2; the skirt is an arc that stretches.
     """
     return math.nan if answer.skirt is None else answer.skirt.edge_tension(0.5 * line_load(answer, tension))
 
@@ -223,8 +223,8 @@ def impact_notices(unit: LevelCurtain, settings: ImpactSettings, answer: ImpactA
         notices.append(
             Notice(
                 "impact-no-lower-cable",
-                "there is no lower cable: the rigid skirt of model A hangs on the upper cable alone, the lower edge of "
-                "model A2 swings free",
+                "there is no lower cable: the rigid skirt of model A hangs on the upper cable alone, the lower edge "
+                "of model A2 is free",
                 severity="information",
                 source="model A2",
             )
@@ -233,7 +233,7 @@ def impact_notices(unit: LevelCurtain, settings: ImpactSettings, answer: ImpactA
         notices.append(
             Notice(
                 "impact-no-arc",
-                "models B and AB and the tension of the skirt need 'settings.impact.chord' and a skirt that stretches",
+                "models B and AB and the tension of the skirt need the chord of the impact and a skirt that stretches",
                 severity="information",
                 remedy="give the straight distance of the skirt's edges when it becomes taut, and its stiffness",
             )

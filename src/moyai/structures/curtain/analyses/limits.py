@@ -185,7 +185,7 @@ class _FoundLimits:
 
 @dataclass(frozen=True, eq=False)
 class CountedLimits:
-    """Limits by the models that count: one out of its range sets none, a bound of the load gives a limit 'at least'."""
+    """Limits by the models used for design: one out of its range gives none, a bound of the load a limit 'at least'."""
 
     unit: LevelCurtain
     settings: CurtainSettings
@@ -238,7 +238,7 @@ class CountedLimits:
         limit, bound = self._judged(lambda loads: self._height(loads, speed), lambda _: speed, self.with_plate)
         snaps = self.loads_in(speed).snaps
         if limit.value > 0.0 and snaps is None:
-            # a steady drag knows no snap: the limit can only be lower, whatever sets it
+            # a steady drag does not include snap loads: the limit can only be lower, whatever sets it
             return limit, "at most"
         if limit.value > 0.0 and snaps is not None and bound == "" and not self._knows_sheet(snaps[1], speed):
             return limit, "at most"
@@ -410,7 +410,7 @@ def height_note(limit: Limit, highest: float) -> str:
     again = limit.crossings[1::2]
     if not again:
         return ""
-    return "holds again from " + ", ".join(f"{value:.3g} m" for value in again) + "; the smallest limit counts"
+    return "holds again from " + ", ".join(f"{value:.3g} m" for value in again) + "; the smallest limit is used"
 
 
 def _fails_at_once(limit: Limit, unit: str) -> str:
@@ -428,7 +428,7 @@ def _not_monotone(found: _FoundLimits, alone: Array, least: Array) -> str:
     return (
         f"a current of {found.speeds[n]:.3g} m/s alone would allow {alone[n]:.3g} m, more than the {least[n]:.3g} m "
         "of a weaker one: a stronger current keeps the curtain taut, and it snaps less. Weaker currents come with "
-        "every stronger one, so that the least of them all counts"
+        "every stronger one, so that the smallest of them all is used"
     )
 
 
@@ -442,7 +442,8 @@ def _jump(unit: LevelCurtain, counted: CountedLimits, found: _FoundLimits) -> st
             low, high = found.speeds[n : n + 2]
             return (
                 f"between {low:.3g} and {high:.3g} m/s the depth falls below {100.0 * STRAIGHT:.0f} % of the length: "
-                "the snap of an upright plate is a value below and a bound above, and the heights may jump there"
+                "the snap of an upright plate is a value below that current and an upper bound above it; limits of "
+                "wave height may be discontinuous there"
             )
     return ""
 
@@ -499,7 +500,7 @@ def _speeds(unit: LevelCurtain, settings: CurtainSettings, limit: Limit) -> tupl
     """Return the speeds of the table: as given, or up past the limit, with the limit and the current of the case."""
     weaker: tuple[float, ...] = ()
     if "waves" in settings.analyses:
-        # in them the sheet hangs straighter and may bear more; at slack water there is no shape to speak of
+        # in them the sheet hangs straighter and may carry more; at slack water there is no stable shape
         weaker = tuple(speed for speed in currents_of_waves(unit) if speed > 0.0)
     if settings.limits.speeds is not None:
         return tuple(sorted({max(speed, 1e-3) for speed in settings.limits.speeds}.union(weaker)))

@@ -294,7 +294,7 @@ def _with_joint(
     """Return the rows with the joint loaded by no more than the load line in which it lies [eq:curtain-joint-load].
 
     As a bound it takes the upper end of what the cables vary with. Where the whole span was run and the joint has but a
-    drag that knows no snap of its own, the line is its bound, or nothing where the line is known from below alone, or
+    drag that has no snap of its own, the line is its bound, or nothing where the line is known from below alone, or
     is one of ``open_lines``, of which a run that does not lead may come to more.
     """
     cables = [row for row in rows if row["component"] in ("upper cable", "lower cable")]
@@ -334,7 +334,7 @@ def _highest_end(row: Mapping[str, float | str]) -> float:
 
 
 def _without_snap(row: dict[str, float | str]) -> bool:
-    """Whether the load of a row knows no snap in waves: that of the current, an impact in it, drag under a crest."""
+    """Whether the load of a row has no snap in waves: that of the current, an impact in it, drag under a crest."""
     what = str(row.get("case_governing", row["governing"])).rpartition(" ")[2]
     return what in ("steady", "impact") or (what == "wave" and model_of(str(row["wave_source"])) == CREST)
 
@@ -442,7 +442,7 @@ def _steady(unit: LevelCurtain, component: str) -> tuple[float, float, float]:
     per = unit.curtain.joint_distance if component == "joint" else 1.0
     ends = [per * steady.governing.quantity(name), *(per * end for end in steady.band(name))]
     if component == "float":
-        # the current bears part of the weight of a skirt that flares; slack water comes twice a tide
+        # the current carries part of the weight of a skirt that flares; slack water comes twice a tide
         ends = [max(value, other) for value, other in zip(ends, floats, strict=True)]
     given, low, high = (tight_line(value, pulled) for value in ends)
     return given, low, high

@@ -1,4 +1,4 @@
-"""What a curtain bears over the direction of waves and its own orientation, and the orientation that bears most.
+"""What heights a curtain permits over the direction of waves and its own orientation, and its best orientation.
 
 The curtain is turned on its place; water, current and waves keep their headings. Every orientation has its own steady
 loads, its own snaps and its own angle to the waves; the limit is that of :mod:`.limits` [eq:curtain-limit-rose].
@@ -39,7 +39,7 @@ _SLOWEST = 1e-3
 
 @dataclass(frozen=True)
 class Held:
-    """What a curtain bears: significant height [m], what sets it, and whether it is a bound of the limit."""
+    """What a curtain permits: significant height [m], what sets it, and whether it is a bound of the limit."""
 
     height: float
     governing: str
@@ -71,7 +71,7 @@ class RoseLimits:
     _found: dict[tuple[float, float], Held] = field(default_factory=dict, repr=False)
 
     def held(self, normal: float, heading: float) -> Held:
-        """Return what the curtain bears with its normal to a heading, waves travelling to another [rad]."""
+        """Return what the curtain permits with its normal to a heading, waves travelling to another [rad]."""
         place = (round(math.remainder(normal, math.pi), 9), min(round(folded(heading - normal), 9), 0.5 * math.pi))
         if place not in self._found:
             try:
@@ -142,7 +142,7 @@ def rose_dataset(
     settings : Settings
         With ``limits.rose_step``.
     seas : sequence of SeaState
-        Each has its heading and height; without any there is no orientation that bears most.
+        Each has its heading and height; without any there is no best orientation.
     progress : Progress
         An interrupt is handed on.
     """

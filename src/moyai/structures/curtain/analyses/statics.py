@@ -167,7 +167,7 @@ def _statics(unit: LevelCurtain, cases: tuple[CurtainStatics, ...], significant_
 def _at_slack_water(unit: LevelCurtain) -> dict[str, float]:
     """Return toe clearance and float reserve of a curtain that hangs straight down without a current.
 
-    The flared skirt of a curtain in its current stands higher, and the load bears part of its weight: both numbers
+    The flared skirt of a curtain in its current stands higher, and the load carries part of its weight: both numbers
     are on the favourable side there. Its ends are those of the range of the toe's weight; of a held toe it is as if the
     lower cable bore nothing of it.
     """
@@ -289,13 +289,13 @@ def _given_blockage(unit: LevelCurtain) -> list[Notice]:
     given, found = unit.curtain.drag.given_blockage, unit.statics.section.blockage
     if math.isnan(given) or abs(given - found) <= _LIKE_BLOCKAGE * given:
         return []
-    why = "its skirt flares" if found < given else "its skirt hangs deeper than that"
+    why = "its skirt flares" if found < given else "its skirt is longer than that"
     return [
         Notice(
             "curtain-blockage-given",
             f"the blockage of the case, {given:.3g}, governs the drag coefficient; the curtain in equilibrium fills "
             f"{found:.3g} of the depth, since {why}",
-            found, given, "information", "leave 'structure.drag.blockage' out to take that of the equilibrium",
+            found, given, "information", "leave the blockage of the drag out to take that of the equilibrium",
         )
     ]  # fmt: skip
 

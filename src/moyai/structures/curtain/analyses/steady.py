@@ -52,7 +52,7 @@ def compared_loads(unit: LevelCurtain) -> tuple[ComparedLoad, ...]:
                 "weights of toe and sheet",
                 steady.bound,
                 "upper bound",
-                "a load normal to the sheet leaves its tension alone: the top bears at most what hangs below it",
+                "a load normal to the sheet leaves its tension alone: the top carries at most the weight below it",
             )
         )
     upright = pressure * unit.depth
@@ -75,7 +75,7 @@ def compared_loads(unit: LevelCurtain) -> tuple[ComparedLoad, ...]:
         if math.isnan(law.horizontal_load):
             why += "; no solution at this load ratio"
         if not free:
-            why += "; for a toe that swings"
+            why += "; for a free toe"
         standing = "other law" if free else "out of range"
         found.append(ComparedLoad(f"free toe, {law.name}", law.horizontal_load, standing, why))
     area = span * section.effective_depth
@@ -86,8 +86,9 @@ def compared_loads(unit: LevelCurtain) -> tuple[ComparedLoad, ...]:
                 f"{load.name}, depth reached",
                 load.force / span,
                 "planning",
-                f"an upright plate of the depth reached with C_D = {load.drag_coefficient:.3g}: the sheet that lies "
-                "oblique below counts as upright" + ("" if load.confirmed else "; formula from memory"),
+                f"an upright plate of the depth reached with C_D = {load.drag_coefficient:.3g}: the oblique lower "
+                "part of the sheet is taken as upright"
+                + ("" if load.confirmed else "; formula not compared with the original publication"),
             )
         )
     return tuple(found)

@@ -39,7 +39,7 @@ _TRANSIENT = 10  # peak periods left out of an irregular sea
 _WINDOW = 6.0  # peak periods on each side of the largest snap that are kept
 _MOST_POINTS = 6000
 #: Parts of the height of regular waves that are run too: snaps may lock into a gentle motion in a higher wave, which
-#: the lower ones of its train do not know.
+#: the lower ones of its train do not have.
 _LOWER = (0.9, 0.8, 0.7, 0.6, 0.5, 0.4, 0.3, 0.2, 0.1)
 #: Start speed of the Impact object, which the oscillator does not use [m/s]
 _NO_SPEED = 1.0

@@ -1,6 +1,6 @@
 """Impact and waves in weaker currents than that of the case, which come with every stronger one, twice a tide.
 
-A skirt that is held at both edges hangs straighter in a weaker current, and a straighter sheet bears more of the same
+A skirt that is held at both edges hangs straighter in a weaker current, and a straighter sheet carries more of the same
 snap. Where the current of the case leaves an upright plate as a bound alone, its load in a weaker current in which it
 stays upright is a value all the same [eq:curtain-hierarchy].
 """
@@ -29,7 +29,7 @@ from moyai.structures.curtain.variables import labelled
 if TYPE_CHECKING:
     import xarray as xr
 
-#: Parts of the strongest current in which an upright plate governs, at which the impact is held against its own.
+#: Parts of the strongest current in which an upright plate governs, at which the impact is compared with its own.
 _OF_IMPACT = (0.2, 0.3, 0.4, 0.5, 0.6, 0.7, 0.8, 0.9, 1.0)
 #: Step of the currents in which the waves are run, over the speed of a long wave over the skirt's depth [-]: that of a
 #: stronger current holds those of a weaker one.

@@ -103,7 +103,7 @@ def recorded_snap(entry: schema.RecordKeys, folder: Path) -> RecordedSnap:
         kinds[entry.lower] = FORCE
         names.append("lower")
     if len(columns) <= len(names):
-        raise InputError("one column is named twice", path="record", remedy="name a column of its own for each")
+        raise InputError("one column is named twice", path="record", remedy="name a different column for each")
     table = read_points(folder / entry.file, columns, "record.file", kinds)
     try:
         found = read_snap(

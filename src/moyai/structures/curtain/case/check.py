@@ -60,7 +60,7 @@ def _check_needs(model: CurtainCase, findings: Findings) -> None:
         findings.fault(
             ("analyses",),
             "the analysis 'impact' needs a start speed",
-            remedy="give 'current', or 'settings.impact.start_speed'",
+            remedy="give a current, or the start speed of the impact",
         )
     if "anchor_loads" in asked:
         _check_anchor_loads(model, findings)
@@ -79,13 +79,13 @@ def _check_needs(model: CurtainCase, findings: Findings) -> None:
     if unit.drag.law == "constant" and unit.drag.blockage is not None:
         findings.warn(
             ("structure", "drag", "blockage"),
-            "a constant coefficient does not know the blockage, so the figures given change nothing",
-            remedy="give a law that knows it (gap_speed, closure, table), or widen 'range'",
+            "a constant coefficient does not depend on the blockage, so the values given change nothing",
+            remedy="give a law that depends on it (gap_speed, closure, table), or widen 'range'",
         )
     if unit.passing_fraction < 1.0 and unit.drag.law in ("gap_speed", "closure"):
         findings.warn(
             ("structure", "passing_fraction"),
-            f"the drag law '{unit.drag.law}' takes all of the flow under the toe, but only "
+            f"the drag law '{unit.drag.law}' assumes that all of the flow passes under the toe, but only "
             f"{unit.passing_fraction:g} of what is held up goes there",
             allowed="1 with this law",
         )
@@ -275,7 +275,7 @@ def _check_dynamic(model: CurtainCase, findings: Findings) -> None:
         findings.fault(
             ("settings", "dynamic"),
             "the buoys of anchored supports need 'settings.dynamic.support_mass' or 'settings.anchor_loads.float_mass'",
-            remedy="give the mass of one buoy with its added mass, or leave 'structure.anchors' out for fixed supports",
+            remedy="give the mass of one buoy with its added mass, or leave the anchors out for fixed supports",
         )
     if unit.length <= unit.span:
         findings.fault(
@@ -311,12 +311,12 @@ def _check_dynamic(model: CurtainCase, findings: Findings) -> None:
         findings.fault(
             ("settings", "dynamic", "start"),
             "a drifting start needs a speed",
-            remedy="give 'current', or 'settings.impact.start_speed'",
+            remedy="give a current, or the start speed of the impact",
         )
     if given.start == "released" and model.current is None:
         findings.fault(
             ("settings", "dynamic", "start"),
-            "a curtain that is let go needs a current to become taut",
+            "a released curtain needs a current to become taut",
             remedy="give 'current', or another start",
         )
     for name in _levels_run(model):
@@ -345,7 +345,7 @@ def _check_record(model: CurtainCase, findings: Findings, folder: Path) -> None:
     if model.record is None:
         return
     if "impact" not in model.analyses:
-        findings.warn(("record",), "the record is held against the analysis 'impact', which is not asked for")
+        findings.warn(("record",), "the record is compared with the analysis 'impact', which is not requested")
     if check_file(("record", "file"), model.record.file, folder, findings):
         from moyai.structures.curtain.case.build import recorded_snap
 

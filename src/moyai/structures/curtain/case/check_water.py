@@ -67,7 +67,7 @@ def _check_floats(unit: LevelCurtain, findings: Findings, said: set[str], where:
 
 
 def _check_at_rest(unit: LevelCurtain, findings: Findings, where: str) -> None:
-    """Refuse a current that drowns the floats, and say which speed would."""
+    """Refuse a current that submerges the floats, and say which speed would."""
     statics = unit.statics
     if statics.float_reserve > 0.0:
         return
@@ -75,7 +75,7 @@ def _check_at_rest(unit: LevelCurtain, findings: Findings, where: str) -> None:
     path: KeyPath = ("current", "speed") if ("current", "speed") in findings.document.values else ("current",)
     findings.fault(
         path,
-        f"the current of {unit.surface_speed:.4g} m/s drowns the floats: they lack {-statics.float_reserve:.4g} N/m"
+        f"the current of {unit.surface_speed:.4g} m/s submerges the floats: they lack {-statics.float_reserve:.4g} N/m"
         f"{where}",
         allowed=f"less than {limit:.4g} m/s at the surface, where the reserve is used up",
         remedy="give larger floats, flatter anchor lines or a lighter toe",

@@ -128,7 +128,7 @@ def curtain_factor(model: Any, part: str) -> tuple[float, str]:
     old = getattr(model.settings.safety_factors, part)
     if asked is not None and old is not None and asked != old:
         raise InputError(
-            f"'{curtain_key(part)}' and 'settings.safety_factors.{part}' ({old:g}) say the same thing differently",
+            f"'{curtain_key(part)}' and 'settings.safety_factors.{part}' ({old:g}) contradict each other",
             path=f"criteria.{curtain_key(part)}",
             remedy="keep one of them",
         )

@@ -294,7 +294,8 @@ class ImpactKeys(Block):
     start_speed: PositiveSpeed | None = Field(default=None, description="That speed itself, in place of 'start'.")
     release_position: Length | None = Field(
         default=None,
-        description="Mid-span when the curtain is let go, downstream of the line between the supports; absent: on that "
+        description="Mid-span when the curtain is released, downstream of the line between the supports; absent: on "
+        "that "
         "line, and the band of the impact reaches up to the speed of the current.",
     )
     draught: PositiveLength | None = Field(
@@ -324,7 +325,7 @@ class Cycles(Block):
     realisations: Annotated[int, Field(ge=1, le=100)] = Field(
         default=5,
         description="Realisations of an irregular sea, with the seeds that follow the sea's own; the mean of their "
-        "largest tensions counts, their spread is its band. Default: 5.",
+        "largest tensions is used, their spread is its band. Default: 5.",
     )
     time_step: AutoDuration = Field(default=None, description="Time step. Default: auto.")
     velocity: Literal["skirt_mean", "surface", "wheeler"] = Field(
@@ -361,7 +362,7 @@ class AnchorLoads(Block):
         default="paper", description="Height by cos^2 of the angle (paper), cos (normal), or not reduced."
     )
     pretension: Truth = Field(
-        default=True, description="Whether the steady tension counts; the paper leaves it out. Default: true."
+        default=True, description="Whether the steady tension is included; the paper leaves it out. Default: true."
     )
 
 
@@ -421,14 +422,15 @@ class Limits(Block):
         default=None, description="T = factor times the root of the height in metres; 3.86 when neither is given."
     )
     impact: Truth = Field(
-        default=True, description="Whether the impact counts in the table, where it was asked for. Default: true."
+        default=True, description="Whether the impact is included in the table, where it was requested. Default: true."
     )
     wave_angle_deg: Annotated[float, QuantityOf(quantities.ANGLE_DEGREES)] | None = Field(
         default=None, description="Of the waves from the normal. Default: 0, which loads a curtain most."
     )
     rose_step_deg: Literal[5, 10, 15, 30, 45] | None = Field(
         default=None,
-        description="Step of the limit rose, what the curtain bears over wave heading and its own orientation; absent: "
+        description="Step of the limit rose, the permissible heights over wave heading and its own orientation; "
+        "absent: "
         "no rose.",
     )
 
@@ -461,7 +463,7 @@ class Dynamic(Block):
     )
     start: Literal["auto", "at_rest", "drifting", "released"] = Field(
         default="auto",
-        description="At rest in water that begins to move, drifting and just taut, or (without waves) let go in the "
+        description="At rest in water that begins to move, drifting and just taut, or (without waves) released in the "
         "current, gathered on the line between the supports. Default: at rest in waves, else drifting.",
     )
     start_profile: Literal["uniform", "sag"] = Field(
@@ -479,7 +481,7 @@ class Dynamic(Block):
     duration: Duration | None = Field(
         default=None,
         description="Of the run without waves; absent: four times the rise of model A, doubled while the highest "
-        "tension stands in its later half.",
+        "tension is in its second half.",
     )
     cable_viscosity: CableViscosity | None = Field(
         default=None, description="Internal damping of the cables in N s; absent: 5 % of critical on the mesh."
@@ -492,7 +494,7 @@ class Dynamic(Block):
         description="Whether runs with half the step, half the cells and twice the viscosity follow. Default: true.",
     )
     slack_level: Annotated[float, QuantityOf(quantities.FORCE, least=0.0)] | None = Field(
-        default=None, description="Tension up to which a line counts as slack; absent: 1 % of its highest."
+        default=None, description="Tension up to which a line is taken as slack; absent: 1 % of its highest."
     )
     snap_threshold: PositiveForce | None = Field(
         default=None, description="Peak above which a contact is a snap; absent: twice the mean of the taut times."
@@ -534,14 +536,14 @@ class RecordKeys(Block):
         default=None, description="Column of the tension of the lower cable."
     )
     unloaded: Annotated[tuple[tuple[Instant, Instant], ...], Field(min_length=1, max_length=100)] = Field(
-        description="Intervals [from, to] in which the cables carry nothing; two or more take off a drift as well.",
+        description="Intervals [from, to] in which the cables have no tension; two or more take off a drift as well.",
         examples=[[["0 s", "1.9 s"], ["22 s", "23 s"]]],
     )
     window: tuple[Instant, Instant] | None = Field(
         default=None, description="Interval in which the snap is sought; the whole record when absent."
     )
     release_time: Instant | None = Field(
-        default=None, description="When the curtain was let go, from a trigger; found in the record when absent."
+        default=None, description="When the curtain was released, from a trigger; found in the record when absent."
     )
 
 

@@ -165,7 +165,7 @@ def _hang(span: CurtainSpan, section: SectionMesh, water: Water, weight: bool) -
     below = (span.lower_mass - rho * span.lower_volume) * g
     skin = (span.sheet_mass - rho * span.sheet_volume) * g
     if span.edges != "held" and span.chord >= span.skirt_length * (1.0 - _TIGHT):
-        # each node bears what hangs below the middle of the cell under it
+        # each node carries what hangs below the middle of the cell under it
         load = below + skin * (span.skirt_length - np.cumsum(cells) + 0.5 * cells)
         strain = np.sqrt(1.0 + 2.0 * np.maximum(load, 0.0) / span.sheet_stiffness) - 1.0
         drop[1:] = -np.cumsum(strain * cells)
@@ -200,7 +200,7 @@ def _nodes(span: CurtainSpan, grid: IntArray, place: Array, arc: Array, water: W
     if span.edges == "held":
         held[toe, 2] = True
     if span.lower_stiffness == 0.0:
-        # ballast without a cable that bears: its mass alone
+        # ballast without a cable that carries: its mass alone
         mass[toe] += span.lower_mass * share
         volume[toe] += span.lower_volume * share if weight else 0.0
     support = span.support

@@ -25,7 +25,7 @@ _STRAINED, _STRETCHED = 0.05, 0.25
 
 
 def run_checks(run: DynamicRun, place: str) -> tuple[IdentityCheck, ...]:
-    """Return the energy checks of a run: what came from nowhere, and what viscosity had to take.
+    """Return the energy checks of a run: its spurious energy, and what viscosity had to take.
 
     The second finds cloth that crumples in the mesh: turning sections then feed it and viscosity eats it, so that the
     sum balances while the peaks are those of the mesh.
@@ -93,9 +93,9 @@ def plain(value: float) -> str:
 
 
 def still_rises(run: DynamicRun) -> bool:
-    """Return whether the highest tension stands in the later half of the run, where a higher one may still follow.
+    """Return whether the highest tension is in the second half of the run, where a higher one may still follow.
 
-    A skirt with a free toe bears a first snap while it is upright and a higher one where its swing ends, several rises
+    A skirt with a free toe has a first snap while it is upright and a higher one where its swing ends, several rises
     of model A later; a run that ends between both shows the first one as its peak.
     """
     time = run.history.time
@@ -104,7 +104,7 @@ def still_rises(run: DynamicRun) -> bool:
 
 
 def _leads(run: DynamicRun, name: str) -> bool:
-    """Return whether a line bears enough for its peak to matter."""
+    """Return whether a line carries enough for its peak to matter."""
     return run.peak(name)[0] > 0.5 * max(run.peak(other)[0] for other in run.names)
 
 
@@ -166,15 +166,15 @@ def _short(run: DynamicRun, place: str, rise: float) -> Notice | None:
             "dynamic-short",
             f"{place}: the run of {length:.3g} s is shorter than the rise of the snap by model A, {rise:.3g} s: its "
             "highest tension is no peak",
-            length, rise, "warning", "give a longer 'settings.dynamic.duration', or leave it out",
+            length, rise, "warning", "give a longer duration of the dynamic run, or leave it out",
             "time of the peak of model A",
         )  # fmt: skip
     if still_rises(run):
         return Notice(
             "dynamic-short",
-            f"{place}: the highest tension stands in the later half of the run of {length:.3g} s: a higher one may "
+            f"{place}: the highest tension is in the second half of the run of {length:.3g} s: a higher one may "
             "follow",
-            length, length, "warning", "give a longer 'settings.dynamic.duration'", "time of the highest tension",
+            length, length, "warning", "give a longer duration of the dynamic run", "time of the highest tension",
         )  # fmt: skip
     return None
 
@@ -188,7 +188,7 @@ def _before(run: DynamicRun, place: str) -> Notice | None:
     high, when = float(before.max()), float(run.history.time[~counted][int(np.argmax(before))])
     return Notice(
         "dynamic-before",
-        f"{place}: before {run.from_time:.4g} s, where counting begins, both cables bear {plain(high)} N (at "
+        f"{place}: before {run.from_time:.4g} s, where statistics begin, both cables carry {plain(high)} N (at "
         f"{when:.4g} s), after it {plain(peak)} N",
         high / peak, 1.0 + _UNSETTLED, "information", "a sea that comes up this quickly is rare; judge by which one is "
         "asked for", "highest tension of the settling time",
@@ -208,11 +208,11 @@ def _started(run: DynamicRun, place: str, period: float) -> Notice | None:
         return None
     return Notice(
         "dynamic-start",
-        f"{place}: the highest tension of both cables, {plain(peak)} N, stands at {when:.4g} s, {when / period:.2g} "
-        f"peak periods after the start from rest; in the second half of the run, with its highest crest, they bear at "
-        f"most {plain(after)} N: the peaks are those of a current and waves that come up within one period",
+        f"{place}: the highest tension of both cables, {plain(peak)} N, is at {when:.4g} s, {when / period:.2g} "
+        "peak periods after the start from rest; in the second half of the run, with its highest crest, they carry "
+        f"at most {plain(after)} N: the peaks are those of a current and waves that come up within one period",
         peak / after if after > 0.0 else math.inf, _STARTED, "warning",
-        "give more 'settings.dynamic.settled_periods' with a larger 'wave_count' to leave the start out",
+        "give more settled periods with a larger count of waves to leave the start out",
         "tensions of both halves of the run",
     )  # fmt: skip
 
@@ -233,7 +233,7 @@ def _unsettled(run: DynamicRun, place: str, period: float) -> Notice | None:
         f"{spoken(max(peaks), 'N', 3)} over {count} periods: the motion has not settled, and the highest is that of "
         "these periods only",
         max(peaks) / min(peaks) if min(peaks) > 0.0 else math.inf, 1.0 + _UNSETTLED, "warning",
-        "give more 'settings.dynamic.settled_periods' and 'analysed_periods'; snaps in regular waves may never settle",
+        "give more settled and analysed periods; snaps in regular waves may never settle",
         "peaks of each period",
     )  # fmt: skip
 

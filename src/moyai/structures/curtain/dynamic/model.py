@@ -143,9 +143,9 @@ class CurtainSpan:
 class Mesh:
     """Cells along the span and over the skirt, and the viscosity."""
 
-    #: Cells.
+    #: Cells along the curtain.
     along: int
-    #: Cells.
+    #: Cells down the skirt.
     down: int
     #: BA of the cables [N s]; None: 5 % of critical on the mesh.
     cable_viscosity: float | None = None

@@ -93,7 +93,7 @@ class PeakUncertainties:
             worst = max(one.error for one in poor.values())
             found.append(
                 Notice("dynamic-peak-mesh", f"{place}: peaks move with step and mesh: {said}", worst, limit, "warning",
-                       "take more cells (settings.dynamic.cells_along, cells_down)",
+                       "take more cells along and down the skirt",
                        "runs with half the step and with half as many cells")
             )  # fmt: skip
         both = self.of[BOTH]

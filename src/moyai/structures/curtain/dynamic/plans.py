@@ -120,7 +120,7 @@ def _snap_plan(
         raise InputError(
             "the analysis 'dynamic' needs waves, a current along the normal, or a start speed",
             parameter="analyses",
-            remedy="give 'waves', 'current', or 'settings.impact.start_speed'",
+            remedy="give waves, a current, or the start speed of the impact",
         )
     lower = span.lower_stiffness if span.lower_stiffness > 0.0 else 1e-6 * span.upper_stiffness
     draught = min(span.skirt_length, 0.98 * unit.water.depth)
@@ -130,7 +130,7 @@ def _snap_plan(
     if given.start == "released":
         if current is None or not unit.normal_speed > 0.0:
             raise InputError(
-                "a curtain let go at rest needs a current along its normal to become taut",
+                "a curtain released at rest needs a current along its normal to become taut",
                 parameter="settings.dynamic.start",
                 remedy="give 'current'",
             )

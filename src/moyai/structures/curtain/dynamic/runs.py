@@ -130,7 +130,7 @@ class DynamicRun:
         return self.tension("upper cable") + self.tension("lower cable")
 
     def peak(self, name: str) -> tuple[float, float]:
-        """Return the highest tension that counts [N] and when [s]; ``both`` for the sum of the cables."""
+        """Return the highest governing tension [N] and when [s]; ``both`` for the sum of the cables."""
         values = np.where(self.counted, self.both if name == "both" else self.tension(name), -1.0)
         row = int(np.argmax(values))
         return float(values[row]), float(self.history.time[row])

@@ -37,7 +37,7 @@ class SectionMesh:
 def section_mesh(length: float, chord: float, cells: int, depth: float, density: float) -> SectionMesh:
     """Return the mesh of a skirt between its edges, with hat functions along and the plate's added mass between them.
 
-    The water does not know waves yet: infinite frequency, zero potential at the surface [eq:curtain-section-mass].
+    The water is without waves: infinite frequency, zero potential at the surface [eq:curtain-section-mass].
 
     Parameters
     ----------

@@ -31,7 +31,7 @@ def span_of(unit: LevelCurtain, settings: DynamicSettings) -> CurtainSpan:
         raise InputError(
             "the mass of the sheet is not known",
             parameter="settings.dynamic.sheet_mass",
-            remedy="give it, or 'mass_per_area' with 'sheet_density' or 'film' in 'structure.skirt'",
+            remedy="give it, or the mass per area of the skirt with the density of the sheet or a film",
         )
     volume = settings.sheet_volume
     if math.isnan(volume):
@@ -89,7 +89,7 @@ def _support(unit: LevelCurtain, settings: DynamicSettings) -> AnchoredSupport |
         raise InputError(
             "the buoys of anchored supports need their mass",
             parameter="settings.dynamic.support_mass",
-            remedy="give the mass of one buoy with its added mass, or leave 'structure.anchors' out for fixed supports",
+            remedy="give the mass of one buoy with its added mass, or leave the anchors out for fixed supports",
         )
     if not math.isfinite(anchors.stiffness):
         raise InputError(

@@ -247,9 +247,9 @@ class EdgeImpact:
 
     #: [s].
     time: Array
-    #: [N].
+    #: Tension of the upper cable [N].
     upper_tension: Array
-    #: [N].
+    #: Tension of the lower cable [N].
     lower_tension: Array
     #: Largest relative change of kinetic energy plus work of the springs.
     energy_error: float
@@ -364,7 +364,7 @@ def check_impact(impact: Impact) -> tuple[Notice, ...]:
         notices.append(
             Notice(
                 "impact-slow",
-                f"The tension rises for {rise:.3g} sqrt(d/g); the added mass of infinite frequency holds below "
+                f"The tension rises for {rise:.3g} sqrt(d/g); the added mass of infinite frequency is valid below "
                 f"{_SHORT_RISE}, and the peak is higher with the memory of the waves",
                 rise,
                 _SHORT_RISE,

@@ -40,7 +40,7 @@ class ModelTension:
     time: float
     #: What the model takes for granted.
     assumption: str
-    #: ``upper_tension``, ``lower_tension``: Largest tension of each cable [N]; NaN where the model does not tell them
+    #: ``upper_tension``, ``lower_tension``: Largest tension of each cable [N]; NaN where the model does not give them
     #: apart.
     upper_tension: float = math.nan
     #: See ``upper_tension``.
@@ -62,7 +62,7 @@ class Comparison:
 
     @property
     def spread(self) -> float:
-        """Largest over smallest tension of the models that count."""
+        """Largest over smallest tension of the models used for design."""
         values = [item.tension for item in self.models if item.counts]
         return max(values) / min(values)
 

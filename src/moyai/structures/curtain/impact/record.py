@@ -67,7 +67,7 @@ def compare_record(
     lower_impact: float | None = None,
     peak_missed: float = 0.0,
 ) -> RecordComparison:
-    """Hold the impact models against the impact (peak less plateau) of a record; nothing is fitted.
+    """Compare the impact models with the impact (peak less plateau) of a record; nothing is fitted.
 
     Parameters
     ----------

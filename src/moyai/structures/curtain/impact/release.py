@@ -76,10 +76,10 @@ def slack_phase(
         )
     if abs(position) >= sag:
         raise InputError(
-            f"the curtain is let go {position:g} m from the line between the supports; it is taut there",
+            f"the curtain is released {position:g} m from the line between the supports; it is taut there",
             parameter="position",
             allowed=f"between {-sag:.4g} and {sag:.4g} m",
-            remedy="let it go nearer, or give the speed at the taut instant",
+            remedy="release it nearer, or give the speed at the taut instant",
         )
     decay = 0.5 * impact.water.density * drag_coefficient * impact.draught / moved
     lag = current - speed
@@ -108,7 +108,7 @@ def slack_phase(
         if not math.isfinite(ahead) or (current == 0.0 and abs(place(ahead)) < sag and ahead > 1e12):
             break
     raise InputError(
-        "the curtain never becomes taut: neither current nor release carries it there",
+        "the curtain never becomes taut: neither current nor release moves it that far",
         parameter="current",
         allowed="not 0, or a release fast enough",
         remedy="give a current, or the speed at the taut instant",

@@ -66,7 +66,7 @@ class BulgedSkirt:
         return 0.5 * self.chord * math.tan(0.5 * half_angle)
 
     def edge_tension(self, load: float) -> float:
-        """Return the tension of the arc [N/m] whose edges each bear a load [N/m] [eq:curtain-edge-load].
+        """Return the tension of the arc [N/m] whose edges each carry a load [N/m] [eq:curtain-edge-load].
 
         T_s = F_c / sin(alpha), with the half angle of equation (2) and not that of the just-taut arc: a skirt that
         hangs nearly straight stretches until it can carry the load. Infinite where it would stretch to a full circle.

@@ -42,7 +42,7 @@ _LEAST = 1e-4
 
 @dataclass(frozen=True)
 class Strength:
-    """What a component bears, and the safety factor asked of it."""
+    """What a component carries, and the safety factor asked of it."""
 
     #: Breaking load [N], of the sheet per width [N/m]; infinite where it is not judged.
     capacity: float
@@ -99,9 +99,9 @@ class Requirements:
 class AddedLoads:
     """What waves or an impact add to the steady loads."""
 
-    #: Tension [N].
+    #: Tension of the upper cable [N].
     upper_cable: float = 0.0
-    #: Tension [N].
+    #: Tension of the lower cable [N].
     lower_cable: float = 0.0
     #: Tension of the skirt per width [N/m].
     sheet: float = 0.0
@@ -165,7 +165,7 @@ def utilisation(
         "effective depth": required.least_depth / at("effective_depth"),
     }
     if required.joint is not None:
-        # a joint lies in the load line, which bears no more than its tension [eq:curtain-joint-load]
+        # a joint lies in the load line, which carries no more than its tension [eq:curtain-joint-load]
         load = min((at("line_load") + more.line_load) * required.joint_distance, upper + lower)
         parts["joint"] = required.joint.utilisation(load)
     return parts
@@ -285,12 +285,12 @@ def speed_limit(
     waves: WaveLoading | None = None,
     solved: dict[float, CurtainStatics | None] | None = None,
 ) -> Limit:
-    """Return the largest surface speed [m/s] that every component bears, with what sets it.
+    """Return the largest surface speed [m/s] that every component carries, with what sets it.
 
     Parameters
     ----------
     curtain, site, required
-        What hangs where and must bear what.
+        What hangs where and must carry what.
     highest : float
         Speed up to which the limit is sought [m/s].
     wave_tension : float
@@ -362,12 +362,12 @@ def height_limit(
     highest: float,
     first_only: bool = False,
 ) -> Limit:
-    """Return the largest significant height [m] that every component bears in a current.
+    """Return the largest significant height [m] that every component carries in a current.
 
     Parameters
     ----------
     curtain, site, required, waves
-        What hangs where, must bear what, and how waves load it.
+        What hangs where, must carry what, and how waves load it.
     speed : float
         Surface speed of the current [m/s].
     highest : float
@@ -441,7 +441,7 @@ def anchor_spacing(
     Parameters
     ----------
     curtain, site, required
-        What hangs where and must bear what; anchors at each support.
+        What hangs where and must carry what; anchors at each support.
     speed : float
         Surface speed [m/s].
     longest : float

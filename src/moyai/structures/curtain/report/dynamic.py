@@ -89,7 +89,7 @@ def peak_table(level: CurtainLevel) -> Table | None:
         pairs = zip(group.labels("dynamic_model"), values, strict=True)
         said = ", ".join(f"{name} {format_quantity(float(value), 'N')}" for name, value in pairs)
         note += f" Models of the snap with a rigid skirt, at the speed of the current, for comparison: {said}."
-        note += " A toe that gives way, and a skirt that bulges first, bear less."
+        note += " The tension is less where the toe yields or the skirt bulges first."
     return Table(
         key(level, "dynamic-peaks"),
         "Peaks of the whole span",
@@ -120,7 +120,7 @@ def sample_table(level: CurtainLevel) -> Table | None:
             Column("Seed", ["-" if seed == 0 else f"{seed:.0f}" for seed in (() if seeds is None else seeds)]),
             *in_one_unit(tensions),
         ),
-        "The larger of the means on the meshes counts; of three the coarsest is left out where the finer two lie "
+        "The larger of the means on the meshes is used; of three the coarsest is left out where the finer two are "
         "nearer to each other. Where the finer mesh gives more than a fifth above the coarser one with the same "
         "realisations, the number is a bound from below.",
     )
@@ -154,7 +154,7 @@ def uncertainty_table(level: CurtainLevel) -> Table | None:
         note += " Held normals: sections of added mass keep the directions of the just-taut span."
     run_column = (Column("Run", names),) if len(set(names)) > 1 else ()
     return Table(
-        key(level, "dynamic-worth"),
+        key(level, "dynamic-uncertainty"),
         "Uncertainty of the peaks",
         (*run_column, Column("Line", lines), *in_one_unit(columns)),
         note,
@@ -251,7 +251,7 @@ def energy_figure(level: CurtainLevel, run: Group) -> Figure | None:
         (Abscissa("time", "time", "s"),),
         (Panel("energy", unit),),
         series,
-        "Cables, skirt and the water that they set in motion. A balance that rises would be energy from nowhere.",
+        "Cables, skirt and the water that they set in motion. A balance that rises would be a numerical error.",
         height=260,
     )
 

@@ -127,7 +127,7 @@ def impact_bars(level: CurtainLevel) -> Figure | None:
         (Abscissa("model", "model"),),
         (Panel("largest tension", unit, from_zero=True),),
         tuple(series),
-        "Impact alone, without the drag that goes on afterwards.",
+        "Impact alone, without the drag that follows.",
         tuple(mark for mark in marks if mark.known),
         categories=names,
         height=330,
@@ -305,7 +305,8 @@ def record_over_models(level: CurtainLevel, root: Group) -> Figure | None:
         (Abscissa("time", "time from the taut instant", "ms"),),
         (Panel("tension of both cables", unit, from_zero=True),),
         tuple(series),
-        "Models start at the taut instant of the record and know no drag, except where it is named; nothing is fitted. "
+        "Models start at the taut instant of the record and include no drag, except where it is named; nothing is "
+        "fitted. "
         "Models that do not count are left out.",
         (Mark("plateau of the record", y=record.value("sum_plateau_tension") * factor),),
         height=360,

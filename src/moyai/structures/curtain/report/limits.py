@@ -16,7 +16,7 @@ from moyai.report.sketch import with_colours
 from moyai.structures.curtain.report.reading import CurtainLevel, key, texts, words
 
 _WIDTH, _LEFT, _TOP, _BOTTOM, _CELL = 960.0, 70.0, 16.0, 92.0, 34.0
-# Light to dark below one, reds above; numbers stand in the cells, so that the reading does not hang on colour
+# Light to dark below one, reds above; numbers stand in the cells, so that the reading is not attached to colour
 _STOPS = ((0.0, (237, 245, 250)), (0.5, (168, 206, 228)), (1.0, (84, 150, 196)))
 _OVER = ((1.0, (246, 198, 160)), (1.5, (232, 128, 92)), (3.0, (178, 48, 38)))
 

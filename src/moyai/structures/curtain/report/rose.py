@@ -1,4 +1,4 @@
-"""The limit rose: what the curtain bears over wave direction and its own orientation, as drawing, figure and tables."""
+"""The limit rose: permissible heights over wave direction and curtain orientation, as drawing, figure and tables."""
 
 from __future__ import annotations
 
@@ -38,7 +38,7 @@ def _degrees(angle: float, turn: float = 360.0) -> float:
 
 
 def _best(group: Group, orientation: Array) -> int | None:
-    """Return the row of the orientation that bears most, ``None`` where no sea chooses one."""
+    """Return the row of the best orientation, ``None`` where no sea chooses one."""
     best = attribute(group, "best_orientation")
     return None if math.isnan(best) else int(np.argmin(np.abs(orientation - best)))
 
@@ -52,7 +52,7 @@ def _line(points: list[tuple[float, float]]) -> str:
 
 
 def _drawing(level: CurtainLevel, group: Group, orientation: Array, heading: Array, height: Array) -> Drawing:
-    """Draw the height held over the heading of the waves: as the curtain lies, and in the orientation that bears most.
+    """Draw the height held over the heading of the waves: as the curtain lies, and in its best orientation.
 
     Headings as everywhere: the direction in which waves travel, 0 to the right, counted against the clock.
     """
@@ -78,7 +78,7 @@ def _drawing(level: CurtainLevel, group: Group, orientation: Array, heading: Arr
     best = _best(group, orientation)
     rows = [(0, "sheet", "as it lies")]
     if best is not None and best != 0:
-        rows.append((best, "mooring", "in the orientation that bears most"))
+        rows.append((best, "mooring", "in the orientation of the largest permissible height"))
     for place, (row, style, words) in enumerate(rows):
         values = np.where(np.isfinite(height[row]), height[row], 0.0)
         points = [_xy(scale * float(value), float(angle)) for value, angle in zip(values, heading, strict=True)]
@@ -107,9 +107,9 @@ def _drawing(level: CurtainLevel, group: Group, orientation: Array, heading: Arr
         "Limit rose",
         svg,
         with_colours(svg),
-        "Significant height that the curtain bears over the heading to which waves travel, in the current of the case "
+        "Permissible significant height over the heading to which waves travel, in the current of the case "
         f"and in half of it, the lower of both; sought up to {format_number(attribute(group, 'highest_height'))} m. "
-        "Dots: the seas of the case. A dot inside a line is borne.",
+        "Dots: the seas of the case. A dot inside a line is permissible.",
     )
 
 
@@ -123,16 +123,17 @@ def _over_orientation(level: CurtainLevel, group: Group, orientation: Array, hel
     ]
     series.append(Series("worst sea", x, group.require("held_ratio", "orientation")[order], 1, 0, style="line+points"))
     best = _best(group, orientation)
-    marks = [Mark("as it lies", x=float(degrees[0]), panel=0), Mark("borne", y=1.0, panel=1)]
+    marks = [Mark("as it lies", x=float(degrees[0]), panel=0), Mark("permitted", y=1.0, panel=1)]
     if best is not None and best != 0:
-        marks.append(Mark("bears most", x=float(degrees[best]), panel=0))
+        marks.append(Mark("best orientation", x=float(degrees[best]), panel=0))
     return Figure(
         key(level, "limit-over-orientation"),
-        "What the curtain bears over its orientation",
+        "Permissible height over the orientation of the curtain",
         (Abscissa("orientation", "heading of the normal", "deg"),),
         (Panel("significant height held", "m", from_zero=True), Panel("held over height of the sea", from_zero=True)),
         tuple(series),
-        "In waves from the direction of each sea of the case; below 1 a sea is not borne. A normal and its "
+        "In waves from the direction of each sea of the case; below 1 the height of a sea is not permitted. A normal "
+        "and its "
         "opposite are one orientation.",
         tuple(marks),
         height=440,
@@ -154,12 +155,12 @@ def _table(level: CurtainLevel, group: Group, orientation: Array, held: Array) -
     if governing is not None:
         columns.append(Column("Governing there", [str(governing[row, place]) for row, place in enumerate(worst)]))
     best = _best(group, orientation)
-    said = "No orientation bears more than the others. " if best is None else (
-        f"The orientation that bears most has its normal at {_degrees(float(orientation[best]), 180.0):.3g} degrees: "
-        f"it bears {ratio[best]:.2f} times the height of its worst sea, {ratio[0]:.2f} times as it lies. "
+    said = "No orientation permits more than the others. " if best is None else (
+        f"The best orientation has its normal at {_degrees(float(orientation[best]), 180.0):.3g} degrees: it permits "
+        f"{ratio[best]:.2f} times the height of its worst sea, {ratio[0]:.2f} times as it lies. "
     )  # fmt: skip
     return Table(
-        key(level, "limit-rose-seas"), "Orientation and what it bears", tuple(columns),
+        key(level, "limit-rose-seas"), "Orientation and permissible height", tuple(columns),
         note=f"{said}First row: as it lies. Where several are alike, the middle of them is taken.",
         emphasised=() if best is None else (best,),
     )  # fmt: skip

@@ -25,7 +25,7 @@ def regular_tension(level: CurtainLevel, sea: Group) -> Figure | None:
     found = {
         words: sea.real(name, "period")
         for words, name in (
-            ("tension that counts", "maximum_tension"),
+            ("governing tension", "maximum_tension"),
             ("first contacts", "first_contact_tension"),
             ("later contacts", "later_contact_tension"),
             ("closed form of the impact", "closed_form_tension"),

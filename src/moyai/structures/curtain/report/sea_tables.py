@@ -53,7 +53,7 @@ def regular_table(level: CurtainLevel, sea: Group) -> Table | None:
         (Column("Period", [float(value) for value in period], "s", uniform=False), *columns),
         note="Tension of both cables: the largest that repeats within 1 %; where periods never repeat, the mean of the "
         "largest of 100 periods, with the least and the largest of these. Lower waves: of half to nine tenths of the "
-        "height, since snaps may lock into a gentle motion in a higher one; the larger counts. Judged at: the end of "
+        "height, since snaps may lock into a gentle motion in a higher one; the larger is used. Judged at: the end of "
         "the 95 % interval of a mean. First: the first on a side since the other.",
         emphasised=worst,
     )
@@ -114,8 +114,8 @@ def weaker_table(level: CurtainLevel) -> Table | None:
         "Slack and taut in weaker currents",
         tuple(columns),
         note="Tension of both cables: the mean over the realisations of a sea, or that of regular waves. Weaker "
-        "currents come with every stronger one, twice a tide. The sheet hangs straighter in them and bears more of the "
-        "same tension.",
+        "currents come with every stronger one, twice a tide. The sheet hangs straighter in them and takes more of "
+        "the same tension.",
     )
 
 

@@ -22,7 +22,7 @@ _SITE = (
     ("flow_angle", "angle of the current from the normal", "rad"),
     ("froude_number", "Froude number", ""),
     ("load_ratio", "load ratio qL/W", ""),
-    ("drowning_speed", "current that drowns the floats", "m/s"),
+    ("drowning_speed", "current that submerges the floats", "m/s"),
 )
 _STEADY = (
     ("line_load", "load per length of curtain", "N/m"),
@@ -47,7 +47,7 @@ def site_table(level: CurtainLevel) -> Table | None:
         return None
     rows = [*_spacing_rows(group), *_flooded_rows(group)]
     if math.isinf(group.value("drowning_speed")):
-        rows.insert(0, ("current that drowns the floats", "none up to 10 m/s", ""))
+        rows.insert(0, ("current that submerges the floats", "none up to 10 m/s", ""))
     quantity, value, unit = table.columns
     kept = [n for n, (_, number) in enumerate(zip(quantity.values, value.values, strict=True)) if number != math.inf]
     return Table(
@@ -97,7 +97,7 @@ def _flooded_rows(group: Group) -> list[tuple[str, Cell, str]]:
     shown = display_unit("N/m", buoyancy)
     return [
         ("with flooded floats", f"sinks, {format_quantity(net, 'N/m')} of weight under water", ""),
-        ("air that brings it up again", group.value("air_to_surface"), pretty_unit("m3/m")),
+        ("air volume needed to refloat it", group.value("air_to_surface"), pretty_unit("m3/m")),
         ("buoyancy that holds it up", buoyancy * shown.factor, pretty_unit(shown.name)),
     ]
 

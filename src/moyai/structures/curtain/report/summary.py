@@ -55,7 +55,7 @@ def models_table(levels: tuple[CurtainLevel, ...]) -> Table | None:
             ),
             Column("Why", [reason for _, reason in rows.values()]),
         ),
-        note="A bound says 'at most'; a comparison counts nowhere. A model out of its range never governs.",
+        note="A bound says 'at most'; a comparison is not used for design. A model out of its range never governs.",
         emphasised=tuple(number for number, (_, _, role) in enumerate(rows) if role == "governs"),
     )
 

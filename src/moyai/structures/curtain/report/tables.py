@@ -261,7 +261,7 @@ def impact_tables(level: CurtainLevel) -> list[Table]:
     spread = counted_spread(level)
     note = "Sum of both cables, above the drag. "
     if math.isfinite(spread):
-        note += f"The largest of the models that count is {format_number(spread)} times the smallest."
+        note += f"The largest of the models used for design is {format_number(spread)} times the smallest."
     columns = [
         Column("Model", list(names)),
         Column("Tension", [float(value) for value in tension], "N", uniform=False),
@@ -286,7 +286,7 @@ def impact_tables(level: CurtainLevel) -> list[Table]:
             emphasised=tuple(row for row, name in enumerate(names) if name == design),
         )
     ]
-    numbers = number_table(level, group, "impact-numbers", "What the impact rests on", _IMPACT)
+    numbers = number_table(level, group, "impact-numbers", "Assumptions of the impact", _IMPACT)
     source = str(group.attributes.get("start_speed_source", ""))
     if numbers is not None:
         said = [f"Start speed: {source}." if source else "", f"Design: model {design}." if design else ""]

@@ -69,7 +69,7 @@ class EnergyModel:
 
     @property
     def product(self) -> float:
-        """M m_B K [kg N/m], all that tensions can tell."""
+        """M m_B K [kg N/m], the only product that tensions determine."""
         return self.energy_factor * self.float_mass * self.rope_stiffness
 
     @property

@@ -93,7 +93,7 @@ def calibrate_by_wave(
         members, place = np.unique(of[chosen], return_inverse=True)
         if members.size < 3:
             raise InputError(
-                f"{members.size} blocks hold waves whose pull stands {_ABOVE_NOISE:g} times above the noise",
+                f"{members.size} blocks have waves whose pull is {_ABOVE_NOISE:g} times above the noise",
                 parameter="observed", allowed="at least 3 blocks",
                 remedy="take higher seas, or a gauge with less noise",
             )  # fmt: skip

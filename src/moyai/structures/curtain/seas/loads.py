@@ -118,7 +118,7 @@ def increase(whole: AddedLoads, statics: CurtainStatics) -> AddedLoads:
 
 
 def on_lines(more: AddedLoads, force: float, pretension: float) -> AddedLoads:
-    """Return loads with what they add to the tighter of two lines that bear a force [N] from both sides already.
+    """Return loads with what they add to the tighter of two lines that carry a force [N] from both sides already.
 
     Parameters
     ----------

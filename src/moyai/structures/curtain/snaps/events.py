@@ -160,11 +160,12 @@ def _check(impact: Impact, flow: SkirtFlow, rise: Array, tension: Array) -> tupl
             notices.append(
                 Notice(
                     "snap-slow",
-                    f"Half of the snaps rise for more than {middle:.3g} sqrt(d/g); the added mass of infinite "
-                    f"frequency holds below {_SHORT_RISE}",
+                    f"Half of the snaps have a rise time of more than {middle:.3g} sqrt(d/g); the added mass of "
+                    "infinite "
+                    f"frequency is valid below {_SHORT_RISE}",
                     middle,
                     _SHORT_RISE,
-                    remedy="read peaks with the ratio of the model with memory",
+                    remedy="correct the peaks by the ratio of the impact model with memory",
                     source="Cummins form: 2 % at 0.64, 26 % at 1.86",
                 )
             )

@@ -141,7 +141,7 @@ def under_toe_flow(
 ) -> tuple[float, float]:
     """Return the mean speed under the toe [m/s] and its ratio to that of the undisturbed current there [-].
 
-    Only the flow across the curtain is held up: what flows along it goes on as it was. Arguments and errors as
+    Only the flow across the curtain is held up: what flows along it continues as it was. Arguments and errors as
     :func:`under_toe_speed`; the ratio is NaN where nothing flows.
     """
     across = under_toe_speed(current, heading, toe_depth, water, passing_fraction)

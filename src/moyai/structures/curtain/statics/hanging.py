@@ -107,9 +107,9 @@ class CurtainStatics:
     toe_speed: float
     #: Over that of the undisturbed current there [-]; NaN in infinite depth, or where nothing flows there.
     toe_speed_ratio: float
-    #: Of the two cables [N].
+    #: Tension of the upper cable [N].
     upper_tension: float
-    #: Of the two cables [N].
+    #: Tension of the lower cable [N].
     lower_tension: float
     #: Horizontal force on the anchor of an inner support, with an equal span on its other side [N].
     anchor_force: float
@@ -187,7 +187,7 @@ def tight_line(force: float, pretension: float) -> float:
     """Return the tension of the tighter of two alike lines that hold a support from both sides [N].
 
     While neither is slack the one gains half of the force and the other loses it; beyond twice the pretension the one
-    bears all of it [eq:curtain-pretension].
+    carries all of it [eq:curtain-pretension].
 
     Parameters
     ----------
@@ -232,7 +232,7 @@ def supported(
     toe : tuple of float
         Gap under the toe [m], speed in it [m/s], that over the undisturbed one [-].
     lower_share : float
-        Share of the tension that the lower cable bears [-].
+        Share of the tension that the lower cable carries [-].
     """
     first, second = plan.downstream_end_forces
     lean = abs(plan.inward_end_forces[0] - plan.inward_end_forces[1])

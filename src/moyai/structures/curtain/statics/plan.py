@@ -54,10 +54,10 @@ class PlanLoad:
             )
         if not abs(self.flow_angle) < 0.5 * math.pi:
             raise InputError(
-                f"the flow meets the curtain at {math.degrees(self.flow_angle):.4g} degrees from its normal",
+                f"the flow reaches the curtain at {math.degrees(self.flow_angle):.4g} degrees from its normal",
                 parameter="plan.flow_angle",
                 allowed="less than 90 degrees",
-                remedy="a curtain along the flow carries friction only, which is not part of this model",
+                remedy="a curtain along the flow has friction only, which is not part of this model",
             )
         if not np.all(self.ratio > 0.0):
             raise InputError(

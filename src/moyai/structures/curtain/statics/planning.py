@@ -51,9 +51,17 @@ def us_navy_load(area: float, speed: float, density: float) -> PlanningLoad:
 def itopf_load(area: float, speed: float, density: float) -> PlanningLoad:
     """Return 100 A V^2 (kgf, m2, knots): ITOPF's planning number, which covers waves and reserve [eq:curtain-planning].
 
-    Arguments as :func:`us_navy_load`; the number was not seen in its source.
+    Arguments as :func:`us_navy_load`; the number was not compared with its source.
     """
-    return _load("ITOPF", 100.0, area, speed, density, False, "ITOPF, use of booms: F = 100 A V^2, from memory")
+    return _load(
+        "ITOPF",
+        100.0,
+        area,
+        speed,
+        density,
+        False,
+        "ITOPF, use of booms: F = 100 A V^2, not compared with the original publication",
+    )
 
 
 @dataclass(frozen=True)
@@ -73,5 +81,10 @@ class CurrentRule:
 CURRENT_RULES: tuple[CurrentRule, ...] = (
     CurrentRule("toe lifts off the bed", 0.15, True, "Kouwen (1990), Ontario, abstract"),
     CurrentRule("anchor loads become excessive", 0.3, True, "Kouwen (1990), Ontario, abstract"),
-    CurrentRule("a curtain is rarely economic", 0.5, False, "ERDC TN-DOER-E21 (2005), 1 to 1.5 knots, from memory"),
+    CurrentRule(
+        "a curtain is rarely economic",
+        0.5,
+        False,
+        "ERDC TN-DOER-E21 (2005), 1 to 1.5 knots, not compared with the original publication",
+    ),
 )

@@ -53,7 +53,7 @@ class CurrentShape:
     velocity: tuple[float, float]
     #: Along heading 0 with 1 m/s there.
     unit: CurrentProfile
-    #: What tells its shape from others.
+    #: What distinguishes its shape from others.
     mark: tuple[object, ...]
 
     def speeds(self, headings: Array) -> Array:

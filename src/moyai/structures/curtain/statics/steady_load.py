@@ -1,7 +1,7 @@
 """The one steady load of a curtain: value of the model that governs, and its band over what is not known.
 
 Section and plan in equilibrium give the load for a free and for a held toe alike. A skirt whose toe swings flares
-until its weights balance the current: a load normal to the sheet leaves its tension alone, so the top bears at most
+until its weights balance the current: a load normal to the sheet leaves its tension alone, so the top carries at most
 what hangs below it [eq:curtain-steady-bound], however large the drag coefficient is. What is not known is varied one
 at a time, and then everything together that lowers or raises the load.
 """
@@ -44,7 +44,7 @@ QUANTITIES: tuple[tuple[str, str, str], ...] = (
     ("anchor_force", "N", "horizontal force on the anchor of an inner support"),
     ("end_anchor_force", "N", "horizontal force on the more loaded support of a lone span"),
     ("anchor_line_tension", "N", "tension of the anchor line of an inner support"),
-    ("float_load", "N/m", "weight and downward pull that the floats carry"),
+    ("float_load", "N/m", "weight and downward pull on the floats"),
     ("effective_depth", "m", "vertical reach of the skirt"),
     ("toe_gap", "m", "clearance between toe and bed"),
     ("float_reserve_ratio", "1", "buoyancy left over buoyancy"),
@@ -96,7 +96,7 @@ class SteadyState:
 
 
 def _borne(statics: CurtainStatics) -> float:
-    """Return the load per length that reaches the cables [N/m]: without what a bed bears."""
+    """Return the load per length that reaches the cables [N/m]: without what a bed carries."""
     return statics.section.load if statics.toe_gap != 0.0 else statics.section.top_load
 
 
@@ -296,7 +296,7 @@ def steady_load(
             state = SteadyState(change.name, solve(change.apply(curtain)))
         except (InputError, ConvergenceError):
             if change.subject == "law" and free:
-                # no shape to compute: but whatever the law is, the top bears no more than what hangs below it
+                # no shape to compute: but whatever the law is, the top carries no more than what hangs below it
                 unknown_law = max(bound - middle, 0.0)
                 causes.append(SteadyState(f"{change.name}: no shape, bound by the weights", given.statics, unknown_law))
             else:

@@ -85,7 +85,7 @@ def member_section(entry: Any, path: str) -> sections.MemberSection:
     Raises
     ------
     InputError
-        For sides that do not fit together or an outline that meets itself, at the key of the entry.
+        For sides that do not fit together or an outline that intersects itself, at the key of the entry.
     """
     try:
         return _section(entry)

@@ -81,7 +81,7 @@ def _check_motion(model: schema.MemberCase, findings: Findings) -> None:
     regular = [isinstance(state, schema.MemberRegularWaves) for state in model.waves]
     if motion.period is None and not all(regular):
         findings.fault(
-            ("structure", "motion"), "the motion has no period of its own in irregular seas", remedy="give 'period'"
+            ("structure", "motion"), "in irregular seas the motion has no single period", remedy="give 'period'"
         )
     if motion.period is None:
         return
@@ -101,7 +101,7 @@ def _check_current_alone(model: schema.MemberCase, findings: Findings) -> None:
     if model.waves:
         if model.structure.circulation is None:
             findings.fault(
-                ("structure",), "the key 'circulation' is missing: what is done about the circulation at small KC",
+                ("structure",), "the key 'circulation' is missing: how the circulation at small KC is treated",
                 allowed="purpose: extreme (left out, the safe side) or response (counted)",
             )  # fmt: skip
         return
@@ -115,7 +115,7 @@ def _check_current_alone(model: schema.MemberCase, findings: Findings) -> None:
     drag = model.structure.drag
     if isinstance(drag, schema.DragTable) and drag.law == "stokes_wang":
         findings.fault(
-            ("structure", "drag"), "the law 'stokes_wang' speaks of small orbits; a current alone is steady",
+            ("structure", "drag"), "the law 'stokes_wang' is for small orbits; a current alone is steady",
             allowed="steady, dnv_c205, api, or numbers",
         )  # fmt: skip
     if "forces" not in model.analyses:
@@ -144,7 +144,7 @@ def _check_support(model: schema.MemberCase, problem: MemberProblem, findings: F
         if model.structure.support == upper[0] and upper[1] > lower[1]:
             findings.warn(
                 ("structure", "support"),
-                f"the member is fixed at its upper end and free at its '{lower[0]}', which stands on the bed",
+                f"the member is fixed at its upper end and free at its '{lower[0]}', which is on the bed",
                 remedy=f"give support: {lower[0]} for a pile fixed in the bed, support: both_ends where its head is "
                 "held as well",
             )
@@ -152,8 +152,7 @@ def _check_support(model: schema.MemberCase, problem: MemberProblem, findings: F
     if upper[1] > level:
         findings.warn(
             ("structure",),
-            f"the member stands on the bed and reaches above still water ({name}); it is taken as resting simply on "
-            "both ends",
+            f"the member reaches from the bed to above still water ({name}); both ends are taken as simply supported",
             remedy=f"give support: {lower[0]} for a pile fixed in the bed, support: both_ends where its head is held",
         )
 
@@ -173,8 +172,8 @@ def _check_lie(model: schema.MemberCase, problem: MemberProblem, findings: Findi
         key = "start" if member.start[2] > member.end[2] else "end"
         findings.warn(
             ("structure", key, "z"),
-            f"one end stands {high - max(levels):.4g} m above still water and the other {min(levels) - low:.4g} m "
-            f"below it, in a member that rises by {slope:.3g} degrees: {100.0 * dry:.2g} % of it is dry",
+            f"one end is {high - max(levels):.4g} m above still water and the other {min(levels) - low:.4g} m "
+            f"below it, in a member inclined by {slope:.3g} degrees: {100.0 * dry:.2g} % of it is dry",
             allowed=f"piles and braces rise by {_STEEP_DEG:g} degrees and more",
             remedy="check the sign of z; heights below datum are negative",
         )
@@ -210,7 +209,7 @@ def _check_section(problem: MemberProblem, findings: Findings) -> None:
             ("structure", "drag", "roughness"),
             f"{problem.roughness:g} m is no roughness of a member {width:.3g} m wide",
             allowed=f"at most {_LARGEST_ROUGHNESS * width:.3g} m",
-            remedy="add growth to the diameter; the roughness is the height of what stands out of it",
+            remedy="add growth to the diameter; the roughness is the height of the protrusions",
         )
     try:
         problem.rule.at(problem.member.section, Conditions(1.0, 1e6, 1e5))
@@ -222,7 +221,7 @@ def _check_section(problem: MemberProblem, findings: Findings) -> None:
 
 
 def _check_waves(model: schema.MemberCase, problem: MemberProblem, findings: Findings) -> None:
-    """Hold every sea state against breaking and the limits of its theory, at every water level."""
+    """Compare every sea state with breaking and the limits of its theory, at every water level."""
     from moyai.sea.validity import check_spectrum, check_wave
 
     for index, (state, sea) in enumerate(zip(model.waves, problem.seas)):
@@ -279,7 +278,7 @@ def _check_law(model: schema.MemberCase, problem: MemberProblem, findings: Findi
     if not law.counted:
         return
     if model.current is not None:
-        findings.warn((*path, "purpose"), "no measurement tells how a current changes the circulation")
+        findings.warn((*path, "purpose"), "no measurement shows how a current changes the circulation")
     if law.gamma() > 3.0:
         findings.warn((*path, "strength"), f"gamma = {law.gamma():g} exceeds the laminar 3", remedy="measured: about 1")
     section = problem.member.placed_section

@@ -1,4 +1,4 @@
-"""Sizes of a member that the numbers of its case are held against."""
+"""Sizes of a member that the numbers of its case are compared with."""
 
 from __future__ import annotations
 

@@ -104,7 +104,7 @@ def over_keulegan_carpenter(level: Group) -> tuple[Figure, ...]:
                     Series(phase, {"angle": degrees}, speeds[n], 0, n) for n, phase in enumerate(group.labels("phase"))
                 ),
                 "Potential flow with circulation in a circular orbit at KC = 1.5, waves towards the first axis: the "
-                "fast region stands above (+90°) at the crest, below (−90°) at the trough, and turns clockwise "
+                "fast region is above (+90°) at the crest, below (−90°) at the trough, and turns clockwise "
                 "with the wave.",
             )
         )

@@ -71,7 +71,7 @@ def build_problem(case: NetworkCase, folder: Path, *, case_text: str = "", case_
         environment=Environment(
             water=water,
             water_levels=tuple((name, levels[name]) for name in names),
-            # a network runs any sum of waves through time: nothing else asks for its spectrum
+            # a network runs any sum of waves through time: nothing else requires its spectrum
             sea_states=tuple(
                 _sea(case, state, index, water, folder, bearing)  # type: ignore[misc]
                 for index, state in enumerate(case.waves)

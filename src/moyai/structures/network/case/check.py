@@ -252,7 +252,7 @@ def _check_settings(model: NetworkCase, findings: Findings, folder: Path) -> Non
         if model.structure.bodies:
             findings.fault(path, "lines that part are not run next to bodies", remedy="leave the failure or bodies out")
         if settings.resume is not None:
-            findings.fault(path, "a run that is resumed does not know which lines have parted", remedy="run it whole")
+            findings.fault(path, "a resumed run has no record of which lines have parted", remedy="run it whole")
         if "dynamic" not in model.analyses:
             findings.warn(path, "lines part in 'dynamic' alone")
     if model.current_field is not None:
@@ -361,7 +361,7 @@ def _check_places(model: NetworkCase, problem: NetworkProblem, findings: Finding
         if strain > 0.2:
             findings.warn(
                 ("structure", "lines", line.name),
-                f"its ends stand {distance:.4g} m apart, {100 * strain:.0f} % more than its length",
+                f"its ends are {distance:.4g} m apart, {100 * strain:.0f} % more than its length",
                 remedy="check the length and the places of its points",
             )  # fmt: skip
     if network.bed is not None and network.bed.ground is not None:
@@ -394,7 +394,7 @@ def _check_ground(network: Network, depth: float, findings: Findings) -> None:
         one = named[0] if named else network.strands[0].name
         findings.warn(
             ("structure", "bed"),
-            f"{int(beyond.sum())} nodes of the network, some of '{one}' among them, stand beyond the grid of the bed, "
+            f"{int(beyond.sum())} nodes of the network, some of '{one}' among them, are beyond the grid of the bed, "
             "which is flat there",
             remedy="give a grid that covers the network",
         )

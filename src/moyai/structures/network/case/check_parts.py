@@ -77,14 +77,14 @@ def _check_coefficients(
     height = body.size[2] if isinstance(body, bodies.BoxBody) else body.height
     if given.draught >= height:
         findings.fault(
-            (*path, "draught"), f"a draught of {given.draught:g} m drowns a body of {height:g} m",
+            (*path, "draught"), f"a draught of {given.draught:g} m submerges a body of {height:g} m",
             allowed=f"less than {height:g} m",
         )  # fmt: skip
         return
     if body.centre_of_gravity[0] != 0.0 or body.centre_of_gravity[1] != 0.0:
         findings.fault(
             ("structure", "bodies", name, "centre_of_gravity"),
-            "with coefficients the body floats upright: its centre of gravity stands over its middle",
+            "with coefficients the body floats upright: its centre of gravity is above its middle",
             allowed="x and y of 0",
         )  # fmt: skip
     displaced = density * _volume(body) / height * given.draught
@@ -93,7 +93,7 @@ def _check_coefficients(
         findings.warn(
             (*path, "draught"),
             f"the {shape} displaces {displaced:.4g} kg at {given.draught:g} m and weighs {body.mass:.4g} kg: unless "
-            "its lines bear the rest, it floats far from where its coefficients hold",
+            "its lines carry the difference, it floats far from where its coefficients hold",
         )  # fmt: skip
 
 
@@ -180,7 +180,7 @@ def check_bars(model: NetworkCase, findings: Findings) -> None:
 
 
 def check_sheets(model: NetworkCase, findings: Findings) -> None:
-    """Refuse sheets that bear nothing."""
+    """Refuse sheets that carry nothing."""
     for name, sheet in model.structure.sheets.items():
         if sheet.warp_stiffness == 0.0 and sheet.weft_stiffness == 0.0:
             findings.fault(
@@ -197,7 +197,7 @@ def check_corners(model: NetworkCase, findings: Findings) -> None:
         path = ("structure", group, name, "corners")
         twice = duplicates([repr(corner) for corner in grid.corners])
         for index in twice:
-            findings.fault((*path, index), "two corners stand at the same place", remedy="move one")
+            findings.fault((*path, index), "two corners are at the same place", remedy="move one")
         if twice:
             continue
         a, b, c, d = (

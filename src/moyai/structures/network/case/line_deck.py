@@ -76,7 +76,7 @@ def _box(plan: BodyPlan, water: Water) -> FloatingBox:
     """Return a body as a vessel takes it; stiffness of an upright prism about its centre of gravity."""
     if plan.shape == "assembly" or any(plan.rotation):
         raise InputError(
-            f"the body '{plan.name}' is no box or cylinder that stands upright", path="structure.bodies",
+            f"the body '{plan.name}' is no upright box or cylinder", path="structure.bodies",
             allowed="bodies of the shapes box and cylinder, without a rotation",
         )  # fmt: skip
     x, y, z = plan.size
@@ -106,7 +106,7 @@ def _with_sea(deck: MoorDynDeck, problem: NetworkProblem, water: Water) -> MoorD
         velocity = flowing.in_depth(water.depth).velocity(heights)
         current = DeckCurrent(tuple(map(float, heights)), tuple((float(u), float(v)) for u, v in velocity))
         options.append(DeckOption("Currents", 1.0))
-        notes.append(f"the current stands in current_profile.txt at {CURRENT_ROWS} heights")
+        notes.append(f"the current is given in current_profile.txt at {CURRENT_ROWS} heights")
     seas = (
         [plan for plan in run_plans(problem, water) if plan.waves is not None] if problem.environment.sea_states else []
     )
@@ -117,7 +117,7 @@ def _with_sea(deck: MoorDynDeck, problem: NetworkProblem, water: Water) -> MoorD
         waves = DeckWaves(omega, real, imaginary, direction)
         options.append(DeckOption("WaveKin", 7.0))
         notes.append(
-            f"the waves stand in {FREQUENCY_FILE}; they do not ride on the current there, nor grow from nothing"
+            f"the waves are given in {FREQUENCY_FILE}; they do not travel on the current there and have no ramp"
         )
     elif seas:
         notes.append(f"the case has {len(seas)} seas, a deck one: none is written")

@@ -174,12 +174,12 @@ class NetworkSettingsKeys(Block):
     )
     start: Literal["rest", "rest_in_current", "as_built"] | None = Field(
         default=None,
-        description="Where a run begins: at rest in still water, at rest in the current (which then stands from the "
+        description="Where a run begins: at rest in still water, at rest in the current (which is then there from the "
         "start), or as built. Default: rest_in_current where there is a steady current, else rest.",
     )
     resume: FileName | None = Field(
         default=None,
-        description="results.nc of an interrupted run of this case, whose runs go on from their last state.",
+        description="results.nc of an interrupted run of this case, whose runs continue from their last state.",
     )
     method: Literal["auto", "explicit", "tr_bdf2", "esdirk4"] = Field(
         default="auto",
@@ -198,7 +198,7 @@ class NetworkSettingsKeys(Block):
         default=None,
         description="Beginning of each run that peaks and statistics leave out. Default: one mean period of a motion "
         "that swings and begins displaced or at speed; five periods of waves, at most a quarter of the run; else 0; "
-        "where what floats drifts longer to its mean place, until it stands there, at most half of the run.",
+        "where what floats drifts longer to its mean place, until it has reached it, at most half of the run.",
     )
     sensitivity: Truth = Field(
         default=False,

@@ -131,7 +131,7 @@ class BodyRod(Block):
         default=0.0, description="Added-mass coefficient of each end, on half a sphere of water. Default: 0."
     )
     slices: Annotated[int, Field(strict=True, ge=1, le=10_000)] = Field(
-        default=24, description="Slices that the water meets one by one; 24 at least. Default: 24."
+        default=24, description="Slices of the body for loads of the water; at least 24. Default: 24."
     )
 
 

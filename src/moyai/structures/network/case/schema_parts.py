@@ -66,7 +66,7 @@ Axis = Literal["x", "y", "z"]
 # ---- materials
 def _curve_rows(rows: tuple[tuple[float, float], ...]) -> tuple[tuple[float, float], ...]:
     if rows and rows[0] != (0.0, 0.0):
-        raise refuse("the first row is not [0, 0]", remedy="a rope without strain bears nothing: begin with [0, 0]")
+        raise refuse("the first row is not [0, 0]", remedy="a rope without strain has no tension: begin with [0, 0]")
     for below, above in itertools.pairwise(rows):
         if not (above[0] > below[0] and above[1] > below[1]):
             raise refuse(
@@ -126,7 +126,7 @@ class SlowStretchKeys(Block):
 
 
 class WornRopeKeys(Block):
-    """A polyester rope that remembers its highest mean tension (Syrope); its curve is that of the new rope."""
+    """A polyester rope whose stiffness depends on its highest mean tension (Syrope); its curve is for the new rope."""
 
     form: Literal["linear", "quadratic", "exponential"] = Field(description="Shape of the working curve at rest.")
     k1: NonNegativeNumber = Field(
@@ -151,11 +151,11 @@ class OwnType(_Internal):
     curve: RopeTable | None = Field(default=None, description="Tension over strain in place of EA.")
     slow_stretch: SlowStretchKeys | None = Field(
         default=None,
-        description="How a synthetic rope gives way under loads that stay; axial_stiffness then is that of quick "
-        "changes.",
+        description="Creep of a synthetic rope under lasting loads; axial_stiffness then is that of quick changes.",
     )
     worn_rope: WornRopeKeys | None = Field(
-        default=None, description="How a polyester rope remembers its highest mean tension; needs 'curve'."
+        default=None,
+        description="How the stiffness of a polyester rope depends on its highest mean tension; needs 'curve'.",
     )
     volume: Annotated[float, QuantityOf(quantities.AREA, least=0.0)] | None = Field(
         default=None, description="Displaced volume per length. Default: that of the diameter."
@@ -168,7 +168,7 @@ class OwnType(_Internal):
     )
     bending_stiffness: BendingStiffness = Field(default=0.0, description="EI. Default: 0.")
     bears_compression: Annotated[bool, Field(strict=True)] = Field(
-        default=False, description="Whether it bears compression instead of going slack. Default: no."
+        default=False, description="Whether it carries compression instead of going slack. Default: no."
     )
     breaking_load: PositiveForce | None = Field(default=None, description="Breaking load; shows the utilisation.")
 
@@ -266,7 +266,7 @@ class _Moving(Block):
     held: Annotated[tuple[Axis, ...], Field(max_length=3), AfterValidator(once_each)] = Field(
         default=(), description="Components that do not move. Default: none."
     )
-    bed_contact_area: Area = Field(default=0.0, description="Area that bears on the bed. Default: 0.")
+    bed_contact_area: Area = Field(default=0.0, description="Area of contact with the bed. Default: 0.")
 
 
 _Height = Annotated[float, QuantityOf(quantities.LENGTH, least=0.0)]
@@ -350,7 +350,7 @@ PartEntry = Annotated[
 def _clumps_between(entries: tuple[Any, ...]) -> tuple[Any, ...]:
     kinds = [isinstance(entry, WeightEntry) for entry in entries]
     if kinds[0] or kinds[-1]:
-        raise refuse("a clump stands at the end of the line", allowed="clumps between two parts",
+        raise refuse("a clump is at the end of the line", allowed="clumps between two parts",
                      remedy="give the end point its mass instead")  # fmt: skip
     if any(a and b for a, b in itertools.pairwise(kinds)):
         raise refuse("two clumps follow each other", remedy="join them into one")
@@ -386,7 +386,7 @@ class NetworkLine(Block):
         default="catenary", description="Where its nodes start: on the catenary at rest, or on the chord."
     )
     flow_factor: NonNegativeNumber = Field(
-        default=1.0, description="Factor on the water velocity that meets it; less than 1 in a wake. Default: 1."
+        default=1.0, description="Factor on the velocity of the water at it; less than 1 in a wake. Default: 1."
     )
 
 
@@ -445,7 +445,9 @@ class NetworkSheet(Block):
     columns: Annotated[int, Field(strict=True, ge=2, le=500)] = Field(description="Knots along a row.")
     warp_stiffness: MembraneStiffness = Field(description="Modulus times thickness from row to row.")
     weft_stiffness: MembraneStiffness = Field(description="Modulus times thickness along the rows.")
-    shear_stiffness: MembraneStiffness = Field(description="Shear modulus times thickness; 0 lets the threads turn.")
+    shear_stiffness: MembraneStiffness = Field(
+        description="Shear modulus times thickness; with 0 the threads can rotate."
+    )
     mass: MassPerArea = Field(description="Mass per area.")
     thickness: NonNegativeLength = Field(description="Displaced volume per area.")
     drag_normal: NonNegativeNumber = Field(description="Drag coefficient across, on its area.")

@@ -1,4 +1,4 @@
-"""Sizes of a network that its numbers are held against: distances of points, volumes of floats and bodies."""
+"""Sizes of a network that its numbers are compared with: distances of points, volumes of floats and bodies."""
 
 from __future__ import annotations
 

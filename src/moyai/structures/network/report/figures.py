@@ -210,9 +210,9 @@ def energy_figure(level: NetworkLevel, run: Group) -> Figure | None:
         (
             *(Series(name, {"time": time[keep]}, values[keep], 0, tone) for name, values, tone in curves),
             Series("work done", {"time": time[keep]}, (work - work[0])[keep], 1, 2),
-            Series("taken by viscosity, bed and scheme", {"time": time[keep]}, lost[keep], 1, 3),
+            Series("dissipated by viscosity, bed and time stepping", {"time": time[keep]}, lost[keep], 1, 3),
         ),
-        "Work of weight, water and driven points. What is taken never falls where no energy comes from nowhere.",
+        "Work of weight, water and driven points. The dissipated energy cannot decrease in a correct run.",
         height=420,
     )
 

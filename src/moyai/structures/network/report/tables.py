@@ -235,7 +235,7 @@ def uncertainty_table(level: NetworkLevel) -> Table | None:
     error, effect = dynamic.real("discretisation_error", "run"), dynamic.real("viscosity_effect", "run")
     runs = list(dynamic.labels("run"))
     return _table(
-        slug(level.name, "worth"),
+        slug(level.name, "uncertainty"),
         "Accuracy of the peak",
         [
             Column("Run", runs),
@@ -335,5 +335,5 @@ def run_table(level: NetworkLevel) -> Table | None:
             _column("Steps", numbers("steps"), "", digits=9, trim=True),
             Column("Status", [str(run.attributes.get("status", "")).replace("_", " ") for run in runs]),
         ],
-        "Of implicit methods the smallest step.",
+        "Smallest step, for implicit methods.",
     )

@@ -57,12 +57,12 @@ def _check_needs(model: schema.UnitsCase, findings: Findings) -> None:
     if waves and not model.waves:
         findings.fault(("analyses",), f"the analysis '{sorted(waves)[0]}' needs 'waves'", remedy="give a sea state")
     if "map" in model.analyses and model.map is None:
-        findings.fault(("analyses",), "the analysis 'map' needs 'map'", remedy="say where: map: {x: ..., y: ...}")
+        findings.fault(("analyses",), "the analysis 'map' needs 'map'", remedy="give its place: map: {x: ..., y: ...}")
     for name in ("map", "time"):
         if name in model.analyses and "frequency" not in model.analyses:
             findings.fault(
                 ("analyses",), f"the analysis '{name}' needs 'frequency'",
-                remedy="the units move in the waves: ask for both",
+                remedy="the units move in the waves: request both",
             )  # fmt: skip
     _check_time(model, findings)
     _check_file(model, findings)
@@ -88,7 +88,7 @@ def _check_file(model: schema.UnitsCase, findings: Findings) -> None:
         )  # fmt: skip
     if model.structure.gap_damping_lid > 0.0:
         findings.fault(
-            ("structure", "gap_damping_lid"), "the damping of the gaps is in the coefficients of the file or nowhere",
+            ("structure", "gap_damping_lid"), "the damping of the gaps is in the coefficients of the file alone",
             remedy="leave it out, and damp the gaps in the program that computes the file",
         )  # fmt: skip
     if model.settings.panel_size is not None:
@@ -189,8 +189,8 @@ def _check_faces(model: schema.UnitsCase, hull: Hull, findings: Findings) -> Non
             x, y = 0.5 * (near + far)
             findings.warn(
                 path,
-                f"units {first + 1} and {second + 1} turn no faces to each other, they meet at a corner: connector "
-                f"'{entry.name}' stands there at x = {x:.3g} m, y = {y:.3g} m of the row",
+                f"units {first + 1} and {second + 1} have no facing sides, they meet at a corner: connector "
+                f"'{entry.name}' is there at x = {x:.3g} m, y = {y:.3g} m of the row",
                 remedy="give the pairs that face each other in 'between', or place the units face to face",
             )
         if in_order and (left := sorted(facing - pairs)):
@@ -322,7 +322,7 @@ def _check_floating(model: schema.UnitsCase, hull: Hull, findings: Findings) -> 
     if abs(hull.bottom) > 1e-9 * hull.height:
         findings.fault(
             ("structure", "section"), f"the lowest point of the section is at z = {hull.bottom:g} m",
-            allowed="0 m: z counts from the keel",
+            allowed="0 m: z is measured from the keel",
         )  # fmt: skip
         return
     if unit.draught >= hull.height:
@@ -339,7 +339,7 @@ def _check_floating(model: schema.UnitsCase, hull: Hull, findings: Findings) -> 
                 ("structure", "draught"),
                 f"the units are {unit.draught:.4g} m deep in {depth:.4g} m of water at {name}",
                 allowed=f"a draught below {depth:.4g} m",
-                remedy="they would stand on the bed",
+                remedy="they would reach the bed",
             )
     try:
         section = hull.immersed(unit.draught)
@@ -390,7 +390,7 @@ def _check_by_building(model: schema.UnitsCase, findings: Findings, folder: Path
 
 
 def _check_lines_at_rest(problem: UnitsProblem, at: RowAtLevel, findings: Findings) -> bool:
-    """Hold the lines of every unit against their strength and slack; return whether any is impossible."""
+    """Compare the lines of every unit with their strength and slack; return whether any is impossible."""
     from moyai.mooring.checks import check_line_system
 
     places = {line.name: index for index, line in enumerate(problem.row.lines)}

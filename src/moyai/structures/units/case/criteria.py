@@ -40,9 +40,9 @@ AFLOAT_SOURCE = "default of moyai: upright and afloat"
 #: Metacentric height over draught that Japanese practice asks of caissons afloat.
 STABLE_SHARE = 0.05
 STABLE_SOURCE = (
-    f"default of moyai: 5 % of the draught, as Japanese port practice asks of caissons afloat, {UNCONFIRMED}"
+    f"default of moyai: 5 % of the draught, as Japanese port practice requires of floating caissons, {UNCONFIRMED}"
 )
-#: Breaking load over the largest force of a connector, where the case asks for nothing.
+#: Breaking load over the largest force of a connector, where the case gives nothing.
 CONNECTOR_FACTOR = 2.0
 CONNECTOR_SOURCE = "default of moyai: 2 on the breaking load of a connector; no code"
 TOUCH_SOURCE = "default of moyai: hulls do not touch"

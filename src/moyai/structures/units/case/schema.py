@@ -95,8 +95,8 @@ class _RowCoefficients(Block):
     path: FileName = Field(description="File or folder of the program, relative to the case file.")
     bodies: Annotated[tuple[Annotated[str, BeforeValidator(word_of)], ...], Field(max_length=60)] = Field(
         default=(),
-        description="Bodies of the file in the order of the units, by name or by number from 1. Default: as they stand "
-        "in the file.",
+        description="Bodies of the file in the order of the units, by name or by number from 1. Default: as in the "
+        "file.",
     )
     origin: tuple[Length, Length] = Field(
         default=(0.0, 0.0), description="Origin of the axes of the file in those of the row, [x, y]. Default: [0, 0]."
@@ -111,7 +111,8 @@ class CapytaineRow(_RowCoefficients):
 
     program: Literal["capytaine"] = Field(description="NetCDF written by Capytaine.")
     reference_points: tuple[Point, ...] = Field(
-        default=(), description="Rotation centre [x, y, z] of every body, axes of the file, where it does not say them."
+        default=(),
+        description="Rotation centre [x, y, z] of every body, axes of the file, where it does not give them.",
     )
 
 
@@ -139,7 +140,7 @@ class BemioRow(_RowCoefficients):
 
     program: Literal["bemio"] = Field(description="HDF5 file written by BEMIO.")
     reference_points: Annotated[tuple[Point, ...], Field(min_length=1)] = Field(
-        description="Point [x, y, z] that moments of every body are about, axes of the file, which does not say them."
+        description="Point [x, y, z] that moments of every body are about, axes of the file, which does not give them."
     )
 
 

@@ -59,7 +59,7 @@ Direction = Annotated[
 class Endurance(Block):
     """Curve of endurance: N = cycles (range / force)^-exponent."""
 
-    range: PositiveForce = Field(description="Range of force that the connector bears 'cycles' times.")
+    range: PositiveForce = Field(description="Range of force that the connector withstands 'cycles' times.")
     cycles: PositiveNumber = Field(description="Number of cycles at that range.", examples=[1000000])
     exponent: PositiveNumber = Field(description="Inverse slope m of the curve.", examples=[3])
 
@@ -80,12 +80,13 @@ class ConnectorBlock(Block):
         default=0.0,
         description="Across, from the centre line of the unit before the gap; on a side, along it. Default: 0.",
     )
-    above_keel: Length = Field(description="Height above the keel; along, it stands in the middle of the gap.")
+    above_keel: Length = Field(description="Height above the keel; along, it is in the middle of the gap.")
     breaking_load: PositiveForce | None = Field(
-        default=None, description="Largest force that it bears; without it no utilisation is shown."
+        default=None, description="Its strength; without it no utilisation is shown."
     )
     endurance: Endurance | None = Field(
-        default=None, description="Cycles that it bears; without it no fatigue is counted, which needs the time domain."
+        default=None,
+        description="Cycles that it withstands; without it no fatigue is computed, which needs the time domain.",
     )
 
 
@@ -142,7 +143,7 @@ class _Damped(ConnectorBlock):
 class _EndToEnd(_Damped):
     direction: Direction | None = Field(
         default=None,
-        description="Direction of a guide that it works in, as 'axis' of a hinge; motion across is then not seen. "
+        description="Direction of a guide that it works in, as 'axis' of a hinge; motion across is then not resisted. "
         "Default: from its end on the one unit to that on the other, wherever these are.",
     )
 

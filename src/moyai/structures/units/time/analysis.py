@@ -73,11 +73,11 @@ def water_in_time(
     notices = [
         Notice(
             "memory",
-            f"{at.name}: {len(memory.poles)} poles carry the memory of the water; added mass and damping within "
+            f"{at.name}: {len(memory.poles)} poles represent the radiation memory; added mass and damping within "
             f"{100.0 * memory.error:.2g} % of the largest of their pair in the band of the waves, "
             f"{100.0 * memory.error_outside:.2g} % outside",
             value=memory.error, limit=_REPORTED, severity="information" if memory.error <= _REPORTED else "warning",
-            remedy="give smaller panels or more settings.time.memory_frequencies",
+            remedy="give smaller panels or more memory frequencies",
         )
     ]  # fmt: skip
     data = {"memory": memory_dataset(at, memory, wide.omega)}
@@ -255,7 +255,7 @@ def _notices(water: Water3D, sea: RegularSea | IrregularSea, data: xr.Dataset, r
             Notice(
                 "contacts-not-resolved",
                 f"{where}: a stiff connector comes tight within fewer than ten steps; its largest load is uncertain",
-                remedy="give a shorter settings.time.time_step",
+                remedy="give a shorter time step",
             )
         )
     if data.sizes["line"]:
@@ -275,7 +275,7 @@ def _notices(water: Water3D, sea: RegularSea | IrregularSea, data: xr.Dataset, r
                     f"{where}: line '{line}' is pulled to {float(ratio.max()):.3g} times its mean tension, beyond the "
                     "range of lines at rest at every instant: its largest tension is higher than what is shown",
                     value=float(ratio.max()), limit=SNAP_RATIO,
-                    remedy="use longer or softer lines; lines are set in motion where their segments tell mass, "
+                    remedy="use longer or softer lines; lines are set in motion where their segments give mass, "
                     "diameter, drag_normal, drag_tangential and added_mass_normal",
                 )
             )  # fmt: skip
@@ -289,7 +289,7 @@ def _notices(water: Water3D, sea: RegularSea | IrregularSea, data: xr.Dataset, r
                         f"{there}: the motion changes by {100.0 * run.change:.2g} % from one period to the next, "
                         f"{100.0 * run.growth:.2g} % more each period: it grows slowly to another motion, whose loads "
                         "are higher",
-                        value=run.change, limit=_SEEN, remedy="a longer settings.time.duration, or more damping",
+                        value=run.change, limit=_SEEN, remedy="a longer duration, or more damping",
                     )
                 )  # fmt: skip
             elif run.change > REPEATING:
@@ -300,8 +300,8 @@ def _notices(water: Water3D, sea: RegularSea | IrregularSea, data: xr.Dataset, r
                         f"{there}: the motion changes by {100.0 * run.change:.0f} % from one period to the next: it "
                         f"does not repeat, and its largest values are {ends}",
                         value=run.change, limit=REPEATING,
-                        remedy="slack connectors and lines may never settle to one period; a longer "
-                        "settings.time.duration narrows the band",
+                        remedy="slack connectors and lines may never settle to one period; a longer duration narrows "
+                            "the band",
                     )
                 )  # fmt: skip
     if isinstance(sea, IrregularSea):
@@ -325,8 +325,7 @@ def _notices(water: Water3D, sea: RegularSea | IrregularSea, data: xr.Dataset, r
                     f"({period:.3g} s); its largest slow excursion "
                     + ("scatters widely" if cycles >= 1.0 else "is not in it"),
                     value=cycles, limit=LEAST_CYCLES, severity="warning" if cycles >= 1.0 else "error",
-                    remedy=f"give a duration of {LEAST_CYCLES * period:.0f} s or more, or more "
-                    "settings.time.realisations",
+                    remedy=f"give a duration of {LEAST_CYCLES * period:.0f} s or more, or more realisations",
                 )
             )  # fmt: skip
     return out

@@ -1,4 +1,4 @@
-"""The band of the damping of a row in time: its seas run again with the damping at the ends, where curves bear.
+"""The band of the damping of a row in time: its seas run again with the damping at the ends, where curves carry.
 
 The change that the frequency domain finds is taken elsewhere. Where a connector goes slack or a line comes taut its
 stiffness there is that of one mean motion, and says nothing of what more or less motion does to the largest load.

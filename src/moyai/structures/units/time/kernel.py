@@ -27,7 +27,7 @@ _STRAIGHT, _DIRECTION = 1e-10, 1e-5
 def joint_force(elongation: float, rate: float, x: Any, f: Any, dashpot: float, side: float) -> tuple[float, float]:
     """Return force [N] and tangent [N/m] of a connector with a curve and its dashpot; the tangent leaves the rate out.
 
-    ``side`` is 1 of what only pulls, -1 of what only pushes, 0 of what does both: the former two bear nothing until
+    ``side`` is 1 of what only pulls, -1 of what only pushes, 0 of what does both: the former two carry nothing until
     they are tight, and their dashpots neither.
     """
     last = x.size - 1
@@ -81,7 +81,7 @@ def _draw(
             change = 2.0 * spans[i] * change + square
             length = np.sqrt(max(spans[i] * spans[i] + change, 0.0))
             drawn[i] = change / (length + spans[i])
-            # where both ends meet it has no direction and bears nothing
+            # where both ends meet it has no direction and carries nothing
             length = max(length, SHORTEST * spans[i])
             for c in range(3):
                 direction[c] = (spans[i] * axes[i, c] + moved[c]) / length
@@ -287,7 +287,7 @@ def march(
                 _draw(ahead, basis, pairs, arms, bends, axes, spans, drawn_next, along_next)
                 straight = True
                 for i in range(j):
-                    # the straight line serves unless it misses the length or, where it bears, the direction
+                    # the straight line serves unless it misses the length or, where it carries, the direction
                     missed = abs(drawn_next[i] - reach[i] - 0.25 * h * h * alpha[i])
                     straight = straight and missed <= _STRAIGHT * limit
                     for n in range(r if force[i] != 0.0 else 0):

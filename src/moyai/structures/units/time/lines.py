@@ -83,7 +83,7 @@ class Reruns:
 
 
 def movable(at: RowAtLevel) -> list[UnitLine | None]:
-    """Return for every line what it is made of, ``None`` of springs and of lines that do not tell enough."""
+    """Return for every line what it is made of, ``None`` of springs and of lines that do not give enough."""
     found: list[UnitLine | None] = []
     for number in range(at.row.count):
         for line in at.row.lines:

@@ -303,5 +303,5 @@ def check_mass(inertia: Array, memory: RowMemory) -> None:
     if float(np.linalg.eigvalsh(inertia + memory.infinite_added_mass)[0]) <= 0.0:
         raise ConvergenceError(
             "the memory of the water leaves the row without mass",
-            remedy="give more frequencies (settings.time.memory_frequencies) or smaller panels",
+            remedy="give more memory frequencies or smaller panels",
         )

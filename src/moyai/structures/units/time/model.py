@@ -71,7 +71,7 @@ class RowInTime:
 
     @property
     def balanced(self) -> Array:
-        """Part of the force of the lines (m,) that weight and buoyancy bear at rest."""
+        """Part of the force of the lines (m,) that weight and buoyancy carry at rest."""
         out = np.zeros(self.at.size)
         out[2::6] = self.at.line_force(np.zeros(self.at.size))[2::6]
         return out
@@ -223,7 +223,7 @@ def _driven(advance: Any, steps: int, step: float, progress: Progress, name: str
             done += good
             if code != kernel.RUNNING:
                 words = "grew without bound" if code == kernel.DIVERGED else "found no balance within a step"
-                return done, "diverged", f"the motion {words} after {done * step:.4g} s; what is before it is good"
+                return done, "diverged", f"the motion {words} after {done * step:.4g} s; results before it are valid"
             spent = clock.perf_counter() - began
             progress(f"time domain{name}", done * step, steps * step)
             if spent < SECONDS_BETWEEN_LOOKS:
