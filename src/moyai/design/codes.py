@@ -59,6 +59,7 @@ class DesignCode:
         )
 
 
+@checks_words
 @dataclass(frozen=True)
 class LineCheck:
     """Outcome of a line under a code."""

@@ -15,7 +15,7 @@ from numpy.typing import ArrayLike
 
 from moyai.core.arrays import Array, ComplexArray
 from moyai.core.errors import InputError
-from moyai.core.options import check_word
+from moyai.core.options import check_word, checks_words
 from moyai.floating.arrays import finite, increasing
 
 if TYPE_CHECKING:
@@ -119,6 +119,7 @@ class Hydrodynamics:
             length=float(length),
         )
 
+    @checks_words
     def at(self, omega: ArrayLike, *, hold: bool = False) -> Hydrodynamics:
         """Return the coefficients at other frequencies by cubic splines.
 

@@ -16,6 +16,7 @@ import numpy as np
 
 from moyai.core.arrays import Array
 from moyai.core.errors import ConvergenceError, InputError
+from moyai.core.options import checks_words
 from moyai.floating.arrays import positive
 
 
@@ -211,6 +212,7 @@ def body_to_site(point: tuple[float, float], draught: float, heel: float, offset
     return offset + point[0] * cosine + point[1] * sine, -draught - point[0] * sine + point[1] * cosine
 
 
+@checks_words
 def find_equilibrium(
     hull: HullLike,
     *,

@@ -12,6 +12,7 @@ from numpy.typing import ArrayLike
 
 from moyai.core.arrays import Array, IntArray
 from moyai.core.errors import InputError
+from moyai.core.options import checks_words
 from moyai.mooring import kernels, segments
 
 if TYPE_CHECKING:
@@ -284,6 +285,7 @@ class Line:
         )
 
 
+@checks_words
 @dataclass(frozen=True)
 class SpringLine:
     """A straight weightless linear spring between a fixed point and the body, for flume tests and soft guides."""

@@ -6,8 +6,10 @@ import math
 from dataclasses import dataclass
 
 from moyai.core.errors import InputError
+from moyai.core.options import checks_words
 
 
+@checks_words
 @dataclass(frozen=True)
 class Net:
     """Square meshes of twine.
@@ -58,6 +60,7 @@ class Net:
             )
 
     @classmethod
+    @checks_words
     def from_aperture(
         cls, twine_diameter: float, aperture: float, *, solidity_listed: float | None = None, knotted: bool = False
     ) -> Net:

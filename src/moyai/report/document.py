@@ -88,6 +88,7 @@ class Mark:
         return all(value is None or math.isfinite(value) for value in (self.x, self.y))
 
 
+@checks_words
 @dataclass(frozen=True)
 class Figure:
     """A figure with its data."""
@@ -115,6 +116,7 @@ class Figure:
     hint: str = ""
 
 
+@checks_words
 @dataclass(frozen=True)
 class Column:
     """A column of a table."""
@@ -160,6 +162,7 @@ def in_one_unit(columns: Sequence[Column], unit: str = "N") -> tuple[Column, ...
     return tuple(replace(column, like=largest) if column.unit == unit else column for column in columns)
 
 
+@checks_words
 @dataclass(frozen=True)
 class Table:
     """A table that is shown and written as CSV."""

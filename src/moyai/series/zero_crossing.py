@@ -319,6 +319,7 @@ def _notices(
     return tuple(notices)
 
 
+@checks_words
 def split_waves(
     time: ArrayLike, values: ArrayLike, *, mean_level: float | None = None, parabolic: bool = False
 ) -> Waves:

@@ -42,6 +42,7 @@ class CodeRule:
     source: str
 
 
+@checks_words
 @dataclass(frozen=True)
 class EnduranceData:
     """An endurance curve of the table; see :class:`moyai.design.fatigue.EnduranceCurve`."""

@@ -10,6 +10,7 @@ from collections.abc import Callable, Iterator
 from dataclasses import dataclass
 from typing import Any, Literal
 
+import numpy as np
 import pytest
 import xarray as xr
 
@@ -22,7 +23,11 @@ from moyai.floating import Hydrodynamics
 
 
 def calls_with_words() -> Iterator[tuple[str, Callable[..., Any], str]]:
-    """Give every public function, method and dataclass that takes an option word, with the name of the argument."""
+    """Give every public function, method and dataclass that takes an option word, with the name of the argument.
+
+    True and false are looked for in what packages hand out: what works inside is called by the package alone.
+    """
+    handed_out = {id(item) for item in things_of_packages()}
     for found in pkgutil.walk_packages(moyai.__path__, "moyai."):
         if found.name.endswith("__main__"):
             continue
@@ -31,8 +36,18 @@ def calls_with_words() -> Iterator[tuple[str, Callable[..., Any], str]]:
             if name.startswith("_") or getattr(item, "__module__", "") != module.__name__:
                 continue
             for label, call, noted in calls_of(name, item):
-                for argument in sorted(_rules(inspect.get_annotations(noted), module.__name__)):
-                    yield f"{found.name}.{label}({argument})", call, argument
+                for argument, (words, items) in sorted(_rules(inspect.get_annotations(noted), module.__name__).items()):
+                    if id(item) in handed_out or {*words, *items} - {True, False, None}:
+                        yield f"{found.name}.{label}({argument})", call, argument
+
+
+def things_of_packages() -> Iterator[Any]:
+    """Give what the packages list in ``__all__``; of a module that is handed out as a whole, what is public in it."""
+    for found in pkgutil.walk_packages(moyai.__path__, "moyai."):
+        package = importlib.import_module(found.name) if found.ispkg else None
+        for name in getattr(package, "__all__", ()):
+            thing = getattr(package, name)
+            yield from vars(thing).values() if inspect.ismodule(thing) else (thing,)
 
 
 def calls_of(name: str, item: Any) -> Iterator[tuple[str, Callable[..., Any], Any]]:
@@ -60,7 +75,8 @@ def test_the_walk_finds_the_calls() -> None:
 
 @pytest.mark.parametrize(("call", "argument"), [item[1:] for item in CALLS], ids=[item[0] for item in CALLS])
 def test_a_word_that_does_not_exist_is_refused(call: Callable[..., Any], argument: str) -> None:
-    with pytest.raises(InputError, match=rf"{argument}: 'no such word' is not a known word; allowed: "):
+    refused = rf"{argument}: 'no such word' is (not a known word|neither true nor false); allowed: "
+    with pytest.raises(InputError, match=refused):
         call(**{argument: "no such word"})
 
 
@@ -72,6 +88,27 @@ class Options:
     many: tuple[Literal["a", "b"], ...] = ("a",)
     one: Literal["up", "down"] | None = None
     number: float = 1.0
+    sure: bool = False
+    held: tuple[bool, bool] | None = None
+
+
+@pytest.mark.parametrize("key", ["sure", "held"])
+@pytest.mark.parametrize("value", ["no", "True", 0, 1, 0.0, np.nan, (True, "no"), [1, 0], {}])
+def test_what_is_neither_true_nor_false_is_refused(key: str, value: Any) -> None:
+    with pytest.raises(InputError, match=f"{key}: .* is neither true nor false; allowed: True or False"):
+        Options(**{key: value})
+
+
+def test_true_and_false_in_their_forms() -> None:
+    yes, no = np.array([1.0, 0.0]) > 0.5
+    assert Options(sure=yes).sure == Options(sure=True).sure and Options(sure=no) == Options()
+    for pair in ((True, False), [True, False], np.array([True, False]), (yes, no), None):
+        Options(held=pair)  # type: ignore[arg-type]
+    with pytest.raises(InputError, match="sure: 'None' is neither"):
+        Options(sure=None)  # type: ignore[arg-type]
+    check_word(1, (0, 1), "number")
+    with pytest.raises(InputError, match="'True' is not a known word"):
+        check_word(True, (0, 1), "number")
 
 
 def test_lists_of_words_and_absent_ones() -> None:

@@ -14,6 +14,7 @@ from numpy.typing import ArrayLike
 
 from moyai.core.arrays import Array
 from moyai.core.errors import InputError
+from moyai.core.options import checks_words
 from moyai.core.validity import Notice
 from moyai.sea.water import Water
 from moyai.structures.curtain.impact.added_mass import flat_skirt_mass
@@ -275,6 +276,7 @@ class EdgeImpact:
         return float((self.upper_tension + self.lower_tension).max())
 
 
+@checks_words
 def edge_impact(
     impact: Impact, *, duration: float | None = None, samples: int = 2000, finite_depth: bool = False
 ) -> EdgeImpact:
