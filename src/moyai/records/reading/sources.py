@@ -35,8 +35,16 @@ class ColumnSource:
     scale: float = 1.0
     #: See ``scale``.
     offset: float = 0.0
-    #: Numbers and words that mean "no value".
+    #: Numbers and words that mean "no value"; a word that is a number (``"-99"``) is read as that number too.
     missing: tuple[float | str, ...] = ()
+
+    def __post_init__(self) -> None:
+        if isinstance(self.missing, (str, float, int)):
+            raise InputError(
+                f"'{self.missing}' is one sign, not a list of signs",
+                parameter="missing",
+                remedy=f"give ({self.missing!r},)",
+            )
 
 
 @checks_words
