@@ -62,6 +62,30 @@ def check_word(word: object, allowed: Iterable[object], parameter: str) -> None:
     )
 
 
+def check_kind(given: object, kind: type, parameter: str, remedy: str = "") -> None:
+    """Refuse an object of another kind than the one that a call needs.
+
+    Parameters
+    ----------
+    given : object
+        What was given.
+    kind : type
+        A class, or a protocol that can be checked at run time (``SectionLike``, which a section fulfils).
+    parameter : str
+        Name of the argument.
+    remedy : str
+        How to come to the object that is needed.
+
+    Raises
+    ------
+    InputError
+        With both kinds.
+    """
+    if not isinstance(given, kind):
+        name = kind.__name__.removesuffix("Like")
+        raise InputError(f"{type(given).__name__} is no {name}", path=parameter, allowed=f"a {name}", remedy=remedy)
+
+
 def checks_words(decorated: Decorated) -> Decorated:
     """Check every argument whose annotation is a ``Literal`` or ``bool`` (or a tuple of them) before a function runs.
 

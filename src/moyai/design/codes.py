@@ -8,11 +8,20 @@ from __future__ import annotations
 import math
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
+from typing import Literal
 
 from moyai.core.errors import InputError
 from moyai.core.options import check_word, checks_words
 from moyai.core.validity import Notice
-from moyai.tables.design_codes import Analysis, CodeRule, Component, applicable_rule, available_codes, code_rules
+from moyai.tables.design_codes import (
+    Analysis,
+    CodeRule,
+    Component,
+    RuleName,
+    applicable_rule,
+    available_codes,
+    code_rules,
+)
 
 
 @checks_words
@@ -30,7 +39,7 @@ class LineLoad:
     breaking_load: float
     #: ``chain``, ``rope``, ``wire``, ``knotted_rope``, ``shackle`` or ``used_chain``.
     component: Component
-    #: Name of the line that is lost, empty when intact.
+    #: Name of the line that is lost, empty when intact; any name stands for one lost line.
     lost: str = ""
 
 
@@ -47,7 +56,8 @@ class DesignCode:
     #: Class of the code, empty where it has none.
     consequence: str = ""
 
-    def value(self, rule: str, condition: str, component: str) -> CodeRule | None:
+    @checks_words
+    def value(self, rule: RuleName, condition: Literal["intact", "one_lost"], component: Component) -> CodeRule | None:
         """Return the rule that applies, the most special first; ``None`` when the code has none."""
         return applicable_rule(
             self.rules,
@@ -172,9 +182,9 @@ def check_line(load: LineLoad, code: DesignCode, *, corrosion: float = 0.0, diam
     0.835
     """
     strength = load.breaking_load * _worn_share(corrosion, diameter)
-    condition = "one_lost" if load.lost else "intact"
+    condition: Literal["intact", "one_lost"] = "one_lost" if load.lost else "intact"
 
-    def value(rule: str) -> CodeRule | None:
+    def value(rule: RuleName) -> CodeRule | None:
         return code.value(rule, condition, load.component)
 
     mean, dynamic = value("partial_mean"), value("partial_dynamic")

@@ -57,7 +57,10 @@ class Flow:
     field: CurrentField | None = None
 
     def __post_init__(self) -> None:
-        given = np.array(self.velocity, dtype=np.float64)
+        try:
+            given = np.array(self.velocity, dtype=np.float64)
+        except (TypeError, ValueError):  # a word
+            given = np.zeros(0)
         if given.shape != (3,) or not np.isfinite(given).all():
             raise InputError(
                 f"velocity of the flow is {self.velocity}", parameter="flow.velocity", allowed="three finite numbers"

@@ -62,6 +62,8 @@ class Hydrodynamics:
 
     def __post_init__(self) -> None:
         increasing(self.omega, "omega")
+        if isinstance(self.modes, str) or len(set(self.modes)) < len(self.modes):
+            raise InputError(f"modes are {self.modes!r}", parameter="modes", allowed="a tuple of names, each once")
         n, h, m = len(self.omega), len(self.heading), len(self.modes)
         shapes = {
             "added_mass": (n, m, m),

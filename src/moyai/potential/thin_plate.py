@@ -18,7 +18,7 @@ from moyai.core.arrays import Array, ComplexArray
 from moyai.core.errors import InputError
 from moyai.core.options import checks_words
 from moyai.potential.edges import arc_position, arc_slope, as_points
-from moyai.potential.modes import DisplacementField, Modes
+from moyai.potential.modes import DisplacementField, Modes, rigid_modes
 from moyai.potential.thin_plate_grid import PlateGrid, plate_grid, with_tails
 from moyai.sea.water import Water
 
@@ -240,8 +240,9 @@ def _velocities_of(modes: Modes | Sequence[NormalVelocity]) -> Sequence[NormalVe
 
         return [along_normal(field) for field in modes.functions]
     found = modes if isinstance(modes, Sequence) else (modes,)
+    mode: object
     for mode in found:
-        if not callable(mode):
+        if not callable(mode) or mode is rigid_modes:
             raise InputError(
                 f"{mode!r} is no motion",
                 parameter="modes",

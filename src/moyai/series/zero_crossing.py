@@ -12,7 +12,7 @@ from numpy.typing import ArrayLike, NDArray
 from moyai.core.arrays import Array
 from moyai.core.compiled import njit
 from moyai.core.errors import InputError
-from moyai.core.options import checks_words
+from moyai.core.options import check_kind, checks_words
 from moyai.core.validity import Notice
 from moyai.core.wording import counted
 from moyai.series.detrend import Detrend, detrended
@@ -251,6 +251,7 @@ def find_waves(time: ArrayLike, values: ArrayLike, options: WaveOptions, *, gap:
     >>> len(waves), waves.height.round(2).max().item(), waves.period.round(2).max().item()   # [m], [s]
     (9, 1.0, 6.0)
     """
+    check_kind(options, WaveOptions, "options", "give WaveOptions(crossing=...)")
     t = np.ascontiguousarray(time, dtype=np.float64)
     v = np.ascontiguousarray(values, dtype=np.float64)
     if t.ndim != 1 or t.shape != v.shape:

@@ -15,11 +15,17 @@ import pytest
 import xarray as xr
 
 import moyai
+from moyai import floating, potential
 from moyai.case import root_schema
 from moyai.core.errors import InputError
 from moyai.core.options import _rules, check_word, checks_words
+from moyai.coupled import RigidBody, simulate_coupled
 from moyai.design import design_code
+from moyai.flexible import BarType, NetworkBuilder
+from moyai.flexible.flow import Flow
 from moyai.floating import Hydrodynamics
+from moyai.sea import Water, spectra, synthesise
+from moyai.series import find_waves
 
 
 def calls_with_words() -> Iterator[tuple[str, Callable[..., Any], str]]:
@@ -138,3 +144,90 @@ def test_words_that_stand_in_tables_and_data() -> None:
     data = xr.Dataset(coords={"omega": [1.0], "influenced_dof": ["sway"], "radiating_dof": ["sway"]})
     with pytest.raises(InputError, match="did you mean 'sway'"):
         Hydrodynamics.from_dataset(data, modes=("swya",))
+    one = np.eye(2)[None]
+    for modes in ("ab", ("sway", "sway")):
+        with pytest.raises(InputError, match=r"modes: modes are .*; allowed: a tuple of names, each once"):
+            Hydrodynamics(np.ones(1), one, one, np.ones((1, 1, 2), complex), np.zeros(1), modes)  # type: ignore[arg-type]
+
+
+def test_what_moves_already_is_a_body_of_the_run() -> None:
+    body = RigidBody("weight", 500.0, (50.0, 50.0, 50.0), position=(0.0, 0.0, -5.0), points={"eye": (0.0, 0.0, 0.0)})
+    builder = NetworkBuilder(WATER)
+    builder.fixed("top", (0.0, 0.0, 0.0))
+    builder.driven("eye", body.points_at_start["eye"])
+    rope = BarType("rope", mass_per_length=1.0, axial_stiffness=1e6, diameter=0.03)
+    builder.line("line", "top", "eye", rope, length=5.0, segments=4)
+    with pytest.raises(InputError, match=r"carriers: 'wieght' is not a known word.*did you mean 'weight'"):
+        simulate_coupled(
+            builder.build(),
+            {"weight": body},
+            duration=0.2,
+            output_step=0.05,
+            carriers={"wieght": body.carrier(WATER, Flow(), 0.0)},
+        )
+
+
+WATER = Water(depth=10.0, density=1025.0, gravity=9.81)
+HULL = potential.shapes.rectangle(beam=4.0, height=2.0)
+SECTION = HULL.immersed(draught=1.0)
+BODY = {"mass": 4100.0, "centre_of_gravity": (0.0, -0.2), "length": 1.0, "density": 1025.0, "gravity": 9.81}
+SEA = spectra.jonswap(significant_height=2.0, peak_period=7.0, peak_enhancement=3.3)
+TIME = np.arange(100.0)
+MISTAKEN: dict[str, tuple[Callable[..., Any], str]] = {
+    "hull for a section": (
+        lambda: floating.hydrostatics(HULL, **BODY),  # type: ignore[arg-type]
+        r"section: Hull is no Section; allowed: a Section; set a hull into the water",
+    ),
+    "section for a hull": (
+        lambda: floating.find_equilibrium(SECTION, **BODY, draught_start=1.0),  # type: ignore[arg-type]
+        "hull: Section is no Hull; allowed: a Hull; give the hull in its own frame",
+    ),
+    "section that is turned": (
+        lambda: floating.righting_curve(
+            SECTION,  # type: ignore[arg-type]
+            TIME[:2],
+            area=4.0,
+            centre_of_gravity=(0.0, 0.0),
+            draught_start=1.0,
+        ),
+        "hull: Section is no Hull",
+    ),
+    "hull for a solution": (
+        lambda: potential.mean_drift_far_field(HULL),  # type: ignore[arg-type]
+        "solution: Hull is no RadiationDiffraction; .*solve the section first",
+    ),
+    "hull near the body": (
+        lambda: potential.mean_drift_near_field(HULL),  # type: ignore[arg-type]
+        "solution: Hull is no RadiationDiffraction",
+    ),
+    "section for a solution": (
+        lambda: potential.surface_elevation(SECTION, [1.0], 0),  # type: ignore[arg-type]
+        "solution: Section is no RadiationDiffraction",
+    ),
+    "what makes modes": (
+        lambda: potential.solve_plate_limit(
+            potential.Plate((0.0, 0.0), (0.0, -2.0)),
+            WATER,
+            potential.rigid_modes,  # type: ignore[arg-type]
+        ),
+        r"modes: .*rigid_modes.* is no motion; allowed: rigid_modes\(centre\)",
+    ),
+    "crossing for options": (
+        lambda: find_waves(TIME, np.sin(TIME), "down"),  # type: ignore[arg-type]
+        "options: str is no WaveOptions",
+    ),
+    "word for a spreading": (
+        lambda: synthesise(SEA, WATER, duration=100.0, seed=1, spreading="cos2"),  # type: ignore[arg-type]
+        "spreading: str is no Spreading",
+    ),
+    "word for a velocity": (
+        lambda: Flow(velocity="east"),  # type: ignore[arg-type]
+        "velocity of the flow is east; allowed: three finite numbers",
+    ),
+}
+
+
+@pytest.mark.parametrize(("call", "message"), MISTAKEN.values(), ids=MISTAKEN)
+def test_another_kind_of_object_is_refused(call: Callable[..., Any], message: str) -> None:
+    with pytest.raises(InputError, match=message):
+        call()

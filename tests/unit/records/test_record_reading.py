@@ -267,7 +267,7 @@ def test_a_sign_given_as_text_is_found_among_numbers(tmp_path, decimal, sign, ot
 
 @pytest.mark.parametrize("one", ["-99", -99.0, -99])
 def test_one_sign_is_no_list_of_signs(one):
-    with pytest.raises(InputError, match="missing: '-99.*' is one sign"):
+    with pytest.raises(InputError, match=r"missing: '-99.*' is one sign"):
         ColumnSource("h", "level", missing=one)
 
 
