@@ -10,7 +10,7 @@ from __future__ import annotations
 import math
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
-from typing import Literal
+from typing import Literal, cast
 
 import numpy as np
 
@@ -240,9 +240,8 @@ def _velocities_of(modes: Modes | Sequence[NormalVelocity]) -> Sequence[NormalVe
 
         return [along_normal(field) for field in modes.functions]
     found = modes if isinstance(modes, Sequence) else (modes,)
-    mode: object
     for mode in found:
-        if not callable(mode) or mode is rigid_modes:
+        if not callable(mode) or mode is cast(object, rigid_modes):
             raise InputError(
                 f"{mode!r} is no motion",
                 parameter="modes",

@@ -234,7 +234,7 @@ def fit_component(
         force=modelled,
         residual=residual,
         explained=1.0 - float(np.var(residual)) / total if total > 0.0 else math.nan,
-        drag_share=parts[1] / parts[0] if parts[0] > 0.0 else math.inf,
+        drag_share=float(parts[1] / parts[0]) if parts[0] > 0.0 else math.inf,
     )
 
 
