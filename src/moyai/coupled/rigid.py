@@ -60,6 +60,15 @@ class RigidBody:
     ------
     InputError
         For values out of range, each with its name.
+
+    Examples
+    --------
+    >>> from moyai.coupled import RigidBody
+    >>> buoy = RigidBody(
+    ...     "buoy", mass=500.0, inertia=(50.0, 50.0, 40.0), position=(0.0, 0.0, -2.0), points={"eye": (0.0, 0.0, -0.5)}
+    ... )
+    >>> buoy.points_at_start["eye"].tolist()                             # where a line is made fast [m]
+    [0.0, 0.0, -2.5]
     """
 
     #: For messages and results.

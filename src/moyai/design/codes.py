@@ -27,7 +27,15 @@ from moyai.tables.design_codes import (
 @checks_words
 @dataclass(frozen=True)
 class LineLoad:
-    """Tension of a line in one condition."""
+    """Tension of a line in one condition.
+
+    Examples
+    --------
+    >>> from moyai.design import LineLoad
+    >>> load = LineLoad("line 1", maximum_tension=1e6, mean_tension=4e5, breaking_load=2e6, component="chain")
+    >>> load.maximum_tension / load.breaking_load                        # without the factors of a code [-]
+    0.5
+    """
 
     #: Name of the line.
     line: str
@@ -46,7 +54,15 @@ class LineLoad:
 @checks_words
 @dataclass(frozen=True)
 class DesignCode:
-    """A code as it is applied: which analysis, which class, which of its values the user has confirmed."""
+    """A code as it is applied: which analysis, which class, which of its values the user has confirmed.
+
+    Examples
+    --------
+    >>> from moyai.design import design_code
+    >>> code = design_code("ISO 19901-7", analysis="dynamic")
+    >>> code.value("safety_factor", "intact", "chain").value             # [-]
+    1.67
+    """
 
     #: Name of the code.
     name: str

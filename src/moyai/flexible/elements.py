@@ -92,6 +92,13 @@ class BarType:
     ------
     InputError
         For a value that is negative or, where a zero makes no sense, zero.
+
+    Examples
+    --------
+    >>> from moyai.flexible import BarType
+    >>> chain = BarType("chain", mass_per_length=20.0, axial_stiffness=8e7, diameter=0.06, drag_normal=1.2)
+    >>> chain.wave_speed                                                 # speed of an elastic wave, sqrt(EA / m) [m/s]
+    2000.0
     """
 
     #: For messages and reports.

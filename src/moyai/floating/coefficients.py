@@ -34,6 +34,16 @@ class Hydrodynamics:
     ------
     InputError
         When shapes disagree or a number is not finite.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> from moyai.floating import Hydrodynamics
+    >>> omega = np.array([0.5, 1.0])
+    >>> one = np.ones((2, 1, 1))
+    >>> heave = Hydrodynamics(omega, 1e5 * one, 5e3 * one, 1e5j * one, np.zeros(1), ("heave",), length=20.0)
+    >>> heave.size, heave.length                                         # modes, [m]
+    (1, 20.0)
     """
 
     #: Angular frequencies, increasing [rad/s]; shape (n,).

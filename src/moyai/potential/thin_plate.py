@@ -43,6 +43,13 @@ class Plate:
     ------
     InputError
         When the plate has no length, is more than a half circle, or rises above the still water.
+
+    Examples
+    --------
+    >>> from moyai.potential import Plate
+    >>> skirt = Plate(start=(0.0, 0.0), end=(0.0, -2.0))
+    >>> skirt.length, skirt.pierces                                      # [m]
+    (2.0, True)
     """
 
     #: ``start``, ``end``: x, z [m]; the start may lie on the still water z = 0, the end may stand on the bed. Both may

@@ -23,7 +23,15 @@ Rounding = Literal["nearest", "down", "up"]
 @checks_words
 @dataclass(frozen=True)
 class WaveOptions:
-    """How a record is cut into waves."""
+    """How a record is cut into waves.
+
+    Examples
+    --------
+    >>> from moyai.series.zero_crossing import WaveOptions
+    >>> options = WaveOptions(crossing="down", dead_band=0.02)
+    >>> options.crossing, options.crest
+    ('down', 'parabola')
+    """
 
     #: A wave begins where the surface rises, or falls, through the mean level.
     crossing: Literal["up", "down"] = "up"

@@ -32,7 +32,15 @@ _HUBER = 1.345
 @checks_words
 @dataclass(frozen=True)
 class Setup:
-    """What the record was taken on and how it is read."""
+    """What the record was taken on and how it is read.
+
+    Examples
+    --------
+    >>> from moyai.records import Setup
+    >>> setup = Setup(density=1000.0, area=0.0079, widths=(0.1,), period=2.0)
+    >>> setup.form, setup.confidence
+    ('component', 0.95)
+    """
 
     #: Of the water [kg/m3].
     density: float

@@ -212,6 +212,13 @@ class RigidCage:
     ------
     InputError
         When parts lie aside of the plane of symmetry or masses are not positive.
+
+    Examples
+    --------
+    >>> from moyai.structures import model_cage
+    >>> cage = model_cage()
+    >>> round(cage.enclosed_volume, 6), cage.outline                     # [m3]
+    (0.008, 'box')
     """
 
     floats: Floats
