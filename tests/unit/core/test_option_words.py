@@ -22,6 +22,7 @@ from moyai.core.options import _rules, check_word, checks_words
 from moyai.coupled import RigidBody, simulate_coupled
 from moyai.design import design_code
 from moyai.flexible import BarType, NetworkBuilder
+from moyai.flexible.failures import LineFailure
 from moyai.flexible.flow import Flow
 from moyai.floating import Hydrodynamics
 from moyai.sea import Water, spectra, synthesise
@@ -96,6 +97,11 @@ class Options:
     number: float = 1.0
     sure: bool = False
     held: tuple[bool, bool] | None = None
+
+
+def test_a_line_that_fails_is_told_by_true_or_false_at_which_end() -> None:
+    with pytest.raises(InputError, match="at_end: 'start' is neither true nor false"):
+        LineFailure("line", at_end="start")  # type: ignore[arg-type]
 
 
 @pytest.mark.parametrize("key", ["sure", "held"])
