@@ -39,6 +39,7 @@ NONE = "none"
 """Text of a headline whose number is zero."""
 
 
+@checks_words
 @dataclass(frozen=True)
 class Band:
     """How far a headline moves over what is uncertain or varies by chance."""

@@ -14,7 +14,15 @@ Severity = Literal["information", "warning", "error"]
 @checks_words
 @dataclass(frozen=True)
 class Notice:
-    """A statement about the range of validity of a result."""
+    """A statement about the range of validity of a result.
+
+    Examples
+    --------
+    >>> from moyai.core import Notice
+    >>> notice = Notice("steepness", "the wave is steep", value=0.12, limit=0.1, remedy="take a wave of finite height")
+    >>> notice.severity, notice.value > notice.limit
+    ('warning', True)
+    """
 
     #: Short stable identifier, for instance ``wave-breaking``.
     code: str

@@ -11,6 +11,7 @@ from numpy.typing import NDArray
 from moyai.core.arrays import Array
 from moyai.core.attachment import PointCarrier
 from moyai.core.errors import InputError
+from moyai.core.options import check_word
 from moyai.coupled.joint import Joint
 from moyai.coupled.planar import PlanarBody, PlanarCarrier
 from moyai.coupled.rigid import RigidBody, RigidCarrier
@@ -174,6 +175,8 @@ def check_points(
     InputError
         Names the point, both places and what corrects it.
     """
+    for name in carriers:
+        check_word(name, bodies, "carriers")
     seen: list[str] = []
     for body in bodies.values():
         seen.extend(body.points)

@@ -11,6 +11,7 @@ from numpy.typing import ArrayLike
 
 from moyai.core.arrays import Array, ComplexArray
 from moyai.core.errors import InputError
+from moyai.core.options import checks_words
 from moyai.coupled import rigid_kernel as kernel
 from moyai.coupled.hulls import Lumps, no_lumps
 from moyai.coupled.wave_loads import WaveLoads
@@ -48,6 +49,7 @@ def _matrix(value: ArrayLike | None, size: int, path: str, *, positive: bool) ->
     return given
 
 
+@checks_words
 @dataclass(frozen=True, eq=False)
 class RigidBody:
     """A rigid body that hangs in a network or floats by itself [eq:coupled-newton-euler].
@@ -58,6 +60,15 @@ class RigidBody:
     ------
     InputError
         For values out of range, each with its name.
+
+    Examples
+    --------
+    >>> from moyai.coupled import RigidBody
+    >>> buoy = RigidBody(
+    ...     "buoy", mass=500.0, inertia=(50.0, 50.0, 40.0), position=(0.0, 0.0, -2.0), points={"eye": (0.0, 0.0, -0.5)}
+    ... )
+    >>> buoy.points_at_start["eye"].tolist()                             # where a line is made fast [m]
+    [0.0, 0.0, -2.5]
     """
 
     #: For messages and results.

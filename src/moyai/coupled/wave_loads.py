@@ -11,6 +11,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from moyai.core.arrays import Array, ComplexArray
 from moyai.core.errors import ConvergenceError, InputError
+from moyai.core.options import checks_words
 from moyai.core.validity import IdentityCheck, Notice
 from moyai.floating.memory import StateSpaceMemory
 from moyai.sea.components import WaveComponents
@@ -26,6 +27,7 @@ STATE_TOLERANCE, MOST_POLES = 1e-3, 24
 WORST_FIT = 0.1
 
 
+@checks_words
 @dataclass(frozen=True, eq=False)
 class WaveLoads:
     """First-order loads of waves on a body, about one point, in axes of the body at rest [eq:coupled-excitation].
@@ -64,6 +66,7 @@ class WaveLoads:
     notices: tuple[Notice, ...] = ()
 
     @classmethod
+    @checks_words
     def from_dataset(
         cls,
         dataset: xr.Dataset,

@@ -8,17 +8,34 @@ from __future__ import annotations
 import math
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
+from typing import Literal
 
 from moyai.core.errors import InputError
 from moyai.core.options import check_word, checks_words
 from moyai.core.validity import Notice
-from moyai.tables.design_codes import Analysis, CodeRule, Component, applicable_rule, available_codes, code_rules
+from moyai.tables.design_codes import (
+    Analysis,
+    CodeRule,
+    Component,
+    RuleName,
+    applicable_rule,
+    available_codes,
+    code_rules,
+)
 
 
 @checks_words
 @dataclass(frozen=True)
 class LineLoad:
-    """Tension of a line in one condition."""
+    """Tension of a line in one condition.
+
+    Examples
+    --------
+    >>> from moyai.design import LineLoad
+    >>> load = LineLoad("line 1", maximum_tension=1e6, mean_tension=4e5, breaking_load=2e6, component="chain")
+    >>> load.maximum_tension / load.breaking_load                        # without the factors of a code [-]
+    0.5
+    """
 
     #: Name of the line.
     line: str
@@ -30,14 +47,22 @@ class LineLoad:
     breaking_load: float
     #: ``chain``, ``rope``, ``wire``, ``knotted_rope``, ``shackle`` or ``used_chain``.
     component: Component
-    #: Name of the line that is lost, empty when intact.
+    #: Name of the line that is lost, empty when intact; any name stands for one lost line.
     lost: str = ""
 
 
 @checks_words
 @dataclass(frozen=True)
 class DesignCode:
-    """A code as it is applied: which analysis, which class, which of its values the user has confirmed."""
+    """A code as it is applied: which analysis, which class, which of its values the user has confirmed.
+
+    Examples
+    --------
+    >>> from moyai.design import design_code
+    >>> code = design_code("ISO 19901-7", analysis="dynamic")
+    >>> code.value("safety_factor", "intact", "chain").value             # [-]
+    1.67
+    """
 
     #: Name of the code.
     name: str
@@ -47,7 +72,8 @@ class DesignCode:
     #: Class of the code, empty where it has none.
     consequence: str = ""
 
-    def value(self, rule: str, condition: str, component: str) -> CodeRule | None:
+    @checks_words
+    def value(self, rule: RuleName, condition: Literal["intact", "one_lost"], component: Component) -> CodeRule | None:
         """Return the rule that applies, the most special first; ``None`` when the code has none."""
         return applicable_rule(
             self.rules,
@@ -59,6 +85,7 @@ class DesignCode:
         )
 
 
+@checks_words
 @dataclass(frozen=True)
 class LineCheck:
     """Outcome of a line under a code."""
@@ -171,9 +198,9 @@ def check_line(load: LineLoad, code: DesignCode, *, corrosion: float = 0.0, diam
     0.835
     """
     strength = load.breaking_load * _worn_share(corrosion, diameter)
-    condition = "one_lost" if load.lost else "intact"
+    condition: Literal["intact", "one_lost"] = "one_lost" if load.lost else "intact"
 
-    def value(rule: str) -> CodeRule | None:
+    def value(rule: RuleName) -> CodeRule | None:
         return code.value(rule, condition, load.component)
 
     mean, dynamic = value("partial_mean"), value("partial_dynamic")

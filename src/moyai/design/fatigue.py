@@ -21,7 +21,15 @@ from moyai.core.single import plain
 @checks_words
 @dataclass(frozen=True)
 class EnduranceCurve:
-    """Cycles to failure ``N = capacity / range^exponent``."""
+    """Cycles to failure ``N = capacity / range^exponent``.
+
+    Examples
+    --------
+    >>> from moyai.design import EnduranceCurve
+    >>> curve = EnduranceCurve("own", exponent=3.0, capacity=1000.0, unit="1", confirmed=True, source="own tests")
+    >>> round(curve.cycles_to_failure(0.1))                              # range over the breaking load [-]
+    1000000
+    """
 
     name: str
     #: Inverse slope m.

@@ -12,6 +12,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 
 from moyai.core.errors import InputError
+from moyai.core.options import checks_words
 from moyai.core.units import parse_unit
 from moyai.core.validity import Notice
 from moyai.sea.water import Water
@@ -87,6 +88,7 @@ class ScaledQuantity:
     ratio: float
 
 
+@checks_words
 def scale_quantities(
     quantities: Mapping[str, tuple[float, str]], scale: Scale, *, from_model: bool = False
 ) -> tuple[ScaledQuantity, ...]:

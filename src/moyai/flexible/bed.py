@@ -127,6 +127,13 @@ class Bed:
     ------
     InputError
         For a negative value or a stiffness of zero.
+
+    Examples
+    --------
+    >>> from moyai.flexible import Bed
+    >>> bed = Bed(level=-10.0, stiffness=1e6, friction=0.5)
+    >>> bed.level, bed.friction                                          # [m], [-]
+    (-10.0, 0.5)
     """
 
     #: Height of the bed [m]; where it varies, at the origin.

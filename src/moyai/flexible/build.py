@@ -133,6 +133,7 @@ class NetworkBuilder:
             self._motions.append(slot)
         self._add(name, position, DRIVEN, (False, False, False), self._motions.index(slot))
 
+    @checks_words
     def free(
         self,
         name: str,

@@ -12,6 +12,7 @@ from dataclasses import dataclass, field
 import numpy as np
 
 from moyai.core.arrays import Array, BoolArray, IntArray
+from moyai.core.options import checks_words
 from moyai.flexible.numbers import frozen, require, whole_numbers
 from moyai.flexible.worn_law import WornRope
 from moyai.sea.water import Water
@@ -82,6 +83,7 @@ class SlowStretch:
         require(math.isfinite(self.growth) and self.growth >= 0.0, f"growth is {self.growth:g}", "growth", "0 or more")
 
 
+@checks_words
 @dataclass(frozen=True, eq=False)
 class BarType:
     """What a bar is made of.
@@ -90,6 +92,13 @@ class BarType:
     ------
     InputError
         For a value that is negative or, where a zero makes no sense, zero.
+
+    Examples
+    --------
+    >>> from moyai.flexible import BarType
+    >>> chain = BarType("chain", mass_per_length=20.0, axial_stiffness=8e7, diameter=0.06, drag_normal=1.2)
+    >>> chain.wave_speed                                                 # speed of an elastic wave, sqrt(EA / m) [m/s]
+    2000.0
     """
 
     #: For messages and reports.

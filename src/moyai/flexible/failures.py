@@ -14,6 +14,7 @@ import numpy as np
 
 from moyai.core.arrays import Array, IntArray
 from moyai.core.errors import InputError
+from moyai.core.options import checks_words
 from moyai.core.validity import Notice
 from moyai.flexible.network import Network
 
@@ -21,6 +22,7 @@ from moyai.flexible.network import Network
 LOOK = 0.02
 
 
+@checks_words
 @dataclass(frozen=True)
 class LineFailure:
     """Where and when a line parts; whichever of time and tension comes first.

@@ -34,6 +34,16 @@ class Flow:
     ------
     InputError
         For a velocity that is not finite, waves without water, or an interval that is not positive.
+
+    Examples
+    --------
+    >>> from moyai.flexible import Flow
+    >>> from moyai.sea import RegularWave, Water
+    >>> water = Water(depth=10.0, density=1025.0, gravity=9.81)
+    >>> wave = RegularWave(height=1.0, period=5.0, heading=0.0, water=water)
+    >>> flow = Flow(velocity=(0.5, 0.0, 0.0), waves=wave.components())
+    >>> flow.steady, Flow(velocity=(0.5, 0.0, 0.0)).steady               # waves change with time
+    (False, True)
     """
 
     #: Uniform and steady [m/s]; shape (3,).
@@ -57,7 +67,10 @@ class Flow:
     field: CurrentField | None = None
 
     def __post_init__(self) -> None:
-        given = np.array(self.velocity, dtype=np.float64)
+        try:
+            given = np.array(self.velocity, dtype=np.float64)
+        except (TypeError, ValueError):  # a word
+            given = np.zeros(0)
         if given.shape != (3,) or not np.isfinite(given).all():
             raise InputError(
                 f"velocity of the flow is {self.velocity}", parameter="flow.velocity", allowed="three finite numbers"

@@ -9,10 +9,12 @@ from numpy.typing import ArrayLike
 
 from moyai.core.arrays import Array, IntArray
 from moyai.core.errors import InputError
+from moyai.core.options import checks_words
 from moyai.flexible import mass_block_kernel as kernel
 from moyai.flexible.numbers import numbers_of, whole_numbers
 
 
+@checks_words
 @dataclass(frozen=True, eq=False)
 class MassBlocks:
     """Added mass of groups of nodes over local unknowns: normal velocities first, then the vertical ones.

@@ -45,6 +45,16 @@ class Motion:
     ------
     InputError
         For less than two times, a step that is not positive, or values that are not finite.
+
+    Examples
+    --------
+    >>> from moyai.flexible import Motion
+    >>> motion = Motion.harmonic(amplitude=(0.5, 0.0, 0.0), period=8.0, duration=80.0)
+    >>> motion.end                                                       # [s]
+    80.0
+    >>> place, velocity = motion.at(2.0)
+    >>> place.round(3).tolist()                                          # [m]
+    [0.5, 0.0, 0.0]
     """
 
     #: ``start``, ``step``: First time and spacing of the grid [s].

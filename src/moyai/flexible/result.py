@@ -18,7 +18,20 @@ RunStatus = Literal["converged", "not_converged", "interrupted"]
 
 @dataclass(frozen=True, eq=False)
 class State:
-    """Position and velocity of all nodes at one time."""
+    """Position and velocity of all nodes at one time.
+
+    Examples
+    --------
+    >>> from moyai.flexible import BarType, NetworkBuilder, State
+    >>> from moyai.sea import Water
+    >>> builder = NetworkBuilder(Water(depth=10.0, density=1025.0, gravity=9.81))
+    >>> builder.fixed("top", (0.0, 0.0, 0.0))
+    >>> builder.fixed("low", (0.0, 0.0, -5.0))
+    >>> rope = BarType("rope", mass_per_length=1.0, axial_stiffness=1e6, diameter=0.03)
+    >>> builder.line("line", "top", "low", rope, length=5.0, segments=4)
+    >>> State.at_rest(builder.build()).position.shape                    # nodes, axes
+    (5, 3)
+    """
 
     #: [s].
     time: float

@@ -11,6 +11,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from moyai.core.arrays import Array, IntArray
 from moyai.core.errors import InputError
+from moyai.core.options import checks_words
 from moyai.flexible import sheet_kernel as kernel
 from moyai.flexible.numbers import numbers_of, whole_numbers
 from moyai.sea.water import Water
@@ -21,6 +22,7 @@ _POSITIVE_OR_ZERO = (
 )  # fmt: skip
 
 
+@checks_words
 @dataclass(frozen=True, eq=False)
 class Sheets:
     """Triangles of an orthotropic membrane between nodes of a network.

@@ -159,12 +159,12 @@ def simulate(
         follow its error.
     step : float, optional
         Time step [s], rounded down to fill an output step; when left out the largest stable one times ``safety``, or,
-        for
-        the implicit methods, what ``tolerance`` requires.
+        for the implicit methods, what ``tolerance`` requires.
     safety : float, optional
         Part of the largest stable step, above 0, at most 1. When left out 0.95, or 0.5 where bars may go slack with
-        hardly any
-        viscosity. 1 is the pace of the elastic wave: along equal bars wave fronts then travel without error.
+        hardly any viscosity. 1 is the pace of the elastic wave: along equal bars wave fronts then travel without error,
+        as long as ``output_step`` is a whole multiple of the travel time of a wave along one bar. Another one keeps its
+        instants and shortens the step, and fronts overshoot; a notice gives their size.
     load_steps : int
         Steps between two evaluations of the loads of the water, at most.
     tolerance : float

@@ -15,7 +15,7 @@ from numpy.typing import ArrayLike
 
 from moyai.core.arrays import Array, ComplexArray
 from moyai.core.errors import InputError
-from moyai.core.options import check_word
+from moyai.core.options import check_word, checks_words
 from moyai.floating.arrays import finite, increasing
 
 if TYPE_CHECKING:
@@ -34,6 +34,16 @@ class Hydrodynamics:
     ------
     InputError
         When shapes disagree or a number is not finite.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> from moyai.floating import Hydrodynamics
+    >>> omega = np.array([0.5, 1.0])
+    >>> one = np.ones((2, 1, 1))
+    >>> heave = Hydrodynamics(omega, 1e5 * one, 5e3 * one, 1e5j * one, np.zeros(1), ("heave",), length=20.0)
+    >>> heave.size, heave.length                                         # modes, [m]
+    (1, 20.0)
     """
 
     #: Angular frequencies, increasing [rad/s]; shape (n,).
@@ -62,6 +72,8 @@ class Hydrodynamics:
 
     def __post_init__(self) -> None:
         increasing(self.omega, "omega")
+        if isinstance(self.modes, str) or len(set(self.modes)) < len(self.modes):
+            raise InputError(f"modes are {self.modes!r}", parameter="modes", allowed="a tuple of names, each once")
         n, h, m = len(self.omega), len(self.heading), len(self.modes)
         shapes = {
             "added_mass": (n, m, m),
@@ -119,6 +131,7 @@ class Hydrodynamics:
             length=float(length),
         )
 
+    @checks_words
     def at(self, omega: ArrayLike, *, hold: bool = False) -> Hydrodynamics:
         """Return the coefficients at other frequencies by cubic splines.
 

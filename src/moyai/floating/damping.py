@@ -40,7 +40,17 @@ def critical_damping(inertia: Array, added_mass: Array, stiffness: Array) -> Arr
 
 @dataclass(frozen=True)
 class LinearDamping:
-    """Damping that the user adds to wave radiation."""
+    """Damping that the user adds to wave radiation.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> from moyai.floating import LinearDamping
+    >>> damping = LinearDamping.of_modes(critical_fraction=[0.0, 0.0, 0.05])
+    >>> at_roll = damping.at(np.diag([1.0, 1.0, 4.0]), np.zeros((3, 3)), np.diag([0.0, 1.0, 1.0]))
+    >>> round(float(at_roll[2, 2]), 3)                                   # 0.05 times 2 sqrt(4 * 1) [N m s]
+    0.2
+    """
 
     #: Constant part [N s/m, N s, N m s]; shape (m, m).
     matrix: Array
@@ -82,6 +92,14 @@ class QuadraticDamping:
 
     A row of the unit matrix is the quadratic damping of that mode (b2 of roll); a row that gives the velocity of a
     fairlead along some axis is the drag of a line there [eq:floating-quadratic-damping].
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> from moyai.floating import QuadraticDamping
+    >>> damping = QuadraticDamping.of_modes([0.0, 0.0, 30.0])
+    >>> damping.force(np.array([0.0, 0.0, 0.2])).round(3).tolist()       # -30 |v| v in roll [N m]
+    [0.0, 0.0, -1.2]
     """
 
     #: Rows J_k; shape (k, m).

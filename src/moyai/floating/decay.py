@@ -10,6 +10,7 @@ from numpy.typing import ArrayLike
 
 from moyai.core.arrays import Array
 from moyai.core.errors import InputError
+from moyai.core.options import checks_words
 
 
 @dataclass(frozen=True)
@@ -32,6 +33,7 @@ class Decay:
     remainder: float
 
 
+@checks_words
 def fit_decay(
     time: ArrayLike, position: ArrayLike, *, mean: float = 0.0, smallest: float = 0.02, quadratic: bool = True
 ) -> Decay:

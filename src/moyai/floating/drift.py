@@ -159,6 +159,7 @@ def _held(problem: DriftProblem, drift: float, start: Array | None) -> tuple[Mea
     return offset, np.asarray(problem.mooring.stiffness(position), dtype=float)
 
 
+@checks_words
 def solve_with_drift(
     problem: DriftProblem,
     wave_amplitude: ArrayLike,

@@ -14,6 +14,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from moyai.core.arrays import Array, ComplexArray
+from moyai.core.options import checks_words
 from moyai.floating.coefficients import Hydrodynamics
 from moyai.floating.damping import QuadraticDamping
 from moyai.floating.time import Simulation
@@ -76,6 +77,7 @@ def drag_force(quadratic: QuadraticDamping | None, velocity: Array, water: Array
     return -(quadratic.coefficients * np.abs(measure) * measure) @ quadratic.directions
 
 
+@checks_words
 def harmonic_work(
     run: Simulation,
     period: float,

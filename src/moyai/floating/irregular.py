@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
+from typing import Any
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -12,6 +13,7 @@ from numpy.typing import ArrayLike
 from moyai.core.arrays import Array, ComplexArray
 from moyai.core.errors import InputError
 from moyai.core.mixing import Mixing
+from moyai.core.single import plain
 from moyai.floating.arrays import square_matrix
 from moyai.floating.coefficients import Hydrodynamics
 from moyai.floating.damping import EquivalentDamping, LinearDamping, QuadraticDamping
@@ -32,7 +34,7 @@ def integration_weights(omega: ArrayLike) -> Array:
 
 @dataclass(frozen=True)
 class ResponseStatistics:
-    """Statistics of Gaussian responses, one entry a response."""
+    """Statistics of Gaussian responses, one entry a response; of a single response, floats."""
 
     #: Response spectra [unit^2 s/rad] [eq:floating-response]; shape (n, ...).
     spectrum: Array
@@ -44,7 +46,7 @@ class ResponseStatistics:
     #: 2 pi sqrt(m0/m2) [s].
     mean_zero_crossing_period: Array
 
-    def most_probable_maximum(self, duration: float) -> Array:
+    def most_probable_maximum(self, duration: float) -> Any:
         """Return the most probable largest amplitude in ``duration`` [s], sigma sqrt(2 ln N), N = duration / T_z.
 
         Rayleigh statistics of a narrow-banded response [eq:floating-extreme]; zero where fewer than one cycle falls
@@ -53,7 +55,7 @@ class ResponseStatistics:
         with np.errstate(divide="ignore", invalid="ignore"):
             cycles = duration / self.mean_zero_crossing_period
             logarithm = np.where(cycles > 1.0, np.log(np.where(cycles > 1.0, cycles, 1.0)), 0.0)
-        return np.asarray(self.standard_deviation * np.sqrt(2.0 * logarithm), dtype=float)
+        return plain(self.standard_deviation * np.sqrt(2.0 * logarithm))
 
 
 def response_statistics(omega: ArrayLike, transfer: ArrayLike, density: ArrayLike) -> ResponseStatistics:
@@ -104,7 +106,7 @@ def response_statistics(omega: ArrayLike, transfer: ArrayLike, density: ArrayLik
         crossing = np.where(
             moments[2] > 0.0, 2.0 * math.pi * np.sqrt(moments[0] / np.maximum(moments[2], 1e-300)), np.inf
         )
-    return ResponseStatistics(spectrum, moments, deviation, 4.0 * deviation, crossing)
+    return ResponseStatistics(spectrum, moments, plain(deviation), plain(4.0 * deviation), plain(crossing))
 
 
 def energy_transmission(omega: ArrayLike, transmission: ArrayLike, density: ArrayLike) -> float:

@@ -27,7 +27,16 @@ class Mooring(Protocol):
 
 @dataclass(frozen=True)
 class LinearMooring:
-    """Springs of constant stiffness."""
+    """Springs of constant stiffness.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> from moyai.floating import LinearMooring
+    >>> springs = LinearMooring(np.diag([1000.0, 0.0, 0.0]))
+    >>> springs.force(np.array([0.5, 0.0, 0.0])).tolist()                # sway, heave, roll [N, N, N m]
+    [-500.0, 0.0, 0.0]
+    """
 
     matrix: Array
 

@@ -10,15 +10,17 @@ import math
 from collections.abc import Callable
 from dataclasses import dataclass
 from functools import cache
-from typing import Protocol
+from typing import Protocol, runtime_checkable
 
 import numpy as np
 
 from moyai.core.arrays import Array
 from moyai.core.errors import ConvergenceError, InputError
+from moyai.core.options import check_kind, checks_words
 from moyai.floating.arrays import positive
 
 
+@runtime_checkable
 class SectionLike(Protocol):
     """What statics need of an immersed section."""
 
@@ -35,6 +37,7 @@ class SectionLike(Protocol):
         """Left and right x [m] of each cut with the still water."""
 
 
+@runtime_checkable
 class HullLike(Protocol):
     """What statics need of a hull."""
 
@@ -42,6 +45,7 @@ class HullLike(Protocol):
         """Return the section at a depth of the keel origin [m], turned about it by ``heel`` [rad]."""
 
 
+_OWN_FRAME = "give the hull in its own frame, before it is set into the water"
 LinePull = Callable[[float, float, float], "tuple[float, float, float]"]
 """Force of all lines (F_x, F_z, moment about the centre of gravity; N, N, N m) on the unit whose centre of gravity
 is at x, z [m] with heel [rad]."""
@@ -107,7 +111,7 @@ def hydrostatics(
     Raises
     ------
     InputError
-        For a mass or length that is not positive.
+        For a mass or length that is not positive, and for what is no section.
 
     Notes
     -----
@@ -126,6 +130,7 @@ def hydrostatics(
     >>> round(still.metacentric_height, 3)                           # KB + BM - KG = 0.5 + 4^2 / 12 - 0.8 [m]
     1.033
     """
+    check_kind(section, SectionLike, "section", "set a hull into the water: hull.immersed(draught=...)")
     positive(mass, "mass")
     positive(length, "length")
     x_centre, z_centre = centre_of_gravity
@@ -211,6 +216,7 @@ def body_to_site(point: tuple[float, float], draught: float, heel: float, offset
     return offset + point[0] * cosine + point[1] * sine, -draught - point[0] * sine + point[1] * cosine
 
 
+@checks_words
 def find_equilibrium(
     hull: HullLike,
     *,
@@ -256,7 +262,7 @@ def find_equilibrium(
     Raises
     ------
     InputError
-        For a mass that is not positive, and a hull that is not in the water at its first draught.
+        For a mass that is not positive, a hull that is not in the water at its first draught, and what is no hull.
     ConvergenceError
         When no position balances, with the residual; for instance a body heavier than its hull can displace.
 
@@ -276,6 +282,7 @@ def find_equilibrium(
     >>> round(found.draught, 6), abs(found.heel) < 1e-9                  # [m], upright
     (1.0, True)
     """
+    check_kind(hull, HullLike, "hull", _OWN_FRAME)
     positive(mass, "mass")
     weight = mass * gravity
     if free is None:
@@ -421,7 +428,7 @@ def righting_curve(
     Raises
     ------
     InputError
-        For a hull that is not in the water at its first draught.
+        For a hull that is not in the water at its first draught, and for what is no hull.
 
     Examples
     --------
@@ -433,6 +440,7 @@ def righting_curve(
     >>> curve.lever.round(4).tolist()                                    # near GM sin(heel), GM = 1.033 m [m]
     [0.0, 0.1038]
     """
+    check_kind(hull, HullLike, "hull", _OWN_FRAME)
     angles = np.atleast_1d(np.asarray(heel, dtype=float))
     lever, draughts = np.full(angles.shape, np.nan), np.full(angles.shape, np.nan)
     reach = 2.0 * _scale_of(hull, draught_start) + 2.0 * abs(draught_start)

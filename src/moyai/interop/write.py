@@ -9,6 +9,7 @@ import xarray as xr
 
 from moyai.core.errors import InputError
 from moyai.core.files import write_whole
+from moyai.core.options import checks_words
 from moyai.interop.write_bemio import bemio_files
 from moyai.interop.write_nemoh import nemoh_files
 from moyai.interop.write_wamit import wamit_files
@@ -21,6 +22,7 @@ _WRITERS: dict[str, Callable[[xr.Dataset], dict[str, bytes]]] = {
 """Programs whose files can be written."""
 
 
+@checks_words
 def write_coefficients(program: str, dataset: xr.Dataset, folder: str | Path, *, replace: bool = False) -> list[Path]:
     """Write coefficients as files of another program.
 

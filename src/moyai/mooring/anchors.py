@@ -14,7 +14,15 @@ from moyai.core.validity import Notice
 
 @dataclass(frozen=True)
 class Sinker:
-    """A weight on the bed."""
+    """A weight on the bed.
+
+    Examples
+    --------
+    >>> from moyai.mooring import Sinker, check_sinker
+    >>> sinker = Sinker(submerged_weight=50e3, friction=0.6, safety_factor=1.5)
+    >>> check_sinker(sinker, horizontal=10e3, uplift=5e3).passed         # 0.6 (50 - 5) kN over 10 kN is above 1.5
+    True
+    """
 
     #: [N]
     submerged_weight: float
@@ -31,7 +39,15 @@ class Sinker:
 
 @dataclass(frozen=True)
 class DragAnchor:
-    """An anchor that digs in."""
+    """An anchor that digs in.
+
+    Examples
+    --------
+    >>> from moyai.mooring import DragAnchor
+    >>> anchor = DragAnchor(weight=20e3, holding_power=5.0, safety_factor=1.5)
+    >>> anchor.weight * anchor.holding_power                             # holding capacity [N]
+    100000.0
+    """
 
     #: In air [N].
     weight: float

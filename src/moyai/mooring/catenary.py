@@ -10,6 +10,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from moyai.core.arrays import Array, IntArray
 from moyai.core.errors import InputError
+from moyai.core.options import checks_words
 from moyai.core.single import plain
 from moyai.mooring import kernels
 
@@ -69,6 +70,7 @@ def _require(condition: NDArray[np.bool_], values: Array, path: str, allowed: st
         raise InputError(f"{path.replace('_', ' ')} is {worst:g}", parameter=path, allowed=allowed, remedy=remedy)
 
 
+@checks_words
 def solve_catenary(
     horizontal_distance: ArrayLike,
     vertical_distance: ArrayLike,

@@ -12,6 +12,7 @@ from numpy.typing import ArrayLike
 
 from moyai.core.arrays import Array, IntArray
 from moyai.core.errors import InputError
+from moyai.core.options import checks_words
 from moyai.mooring import kernels, segments
 
 if TYPE_CHECKING:
@@ -22,7 +23,15 @@ Vector = tuple[float, float, float]
 
 @dataclass(frozen=True)
 class LineType:
-    """What a segment is made of."""
+    """What a segment is made of.
+
+    Examples
+    --------
+    >>> from moyai.mooring import LineType
+    >>> chain = LineType("chain", submerged_weight=1000.0, axial_stiffness=5e8, breaking_load=2e6)
+    >>> chain.submerged_weight                                           # [N/m]
+    1000.0
+    """
 
     #: For messages and reports.
     name: str
@@ -51,7 +60,15 @@ class LineType:
 
 @dataclass(frozen=True)
 class Segment:
-    """A length of one line type."""
+    """A length of one line type.
+
+    Examples
+    --------
+    >>> from moyai.mooring import LineType, Segment
+    >>> chain = LineType("chain", submerged_weight=1000.0, axial_stiffness=5e8)
+    >>> Segment(chain, length=55.0).length                               # [m]
+    55.0
+    """
 
     #: The material.
     line_type: LineType
@@ -64,7 +81,17 @@ class Segment:
 
 @dataclass(frozen=True)
 class Clump:
-    """A weight or buoy at the upper end of a segment that is not the last one."""
+    """A weight or buoy at the upper end of a segment that is not the last one.
+
+    Examples
+    --------
+    >>> from moyai.mooring import Clump, Line, LineType, Segment
+    >>> chain = LineType("chain", submerged_weight=1000.0, axial_stiffness=5e8)
+    >>> parts = (Segment(chain, 40.0), Segment(chain, 15.0))
+    >>> line = Line("line 1", (50.0, 0.0, -10.0), (0.0, 0.0, 0.0), parts, clumps=(Clump(0, submerged_weight=5000.0),))
+    >>> line.length                                                      # [m]
+    55.0
+    """
 
     #: Index of the segment below it, counted from 0 at the anchor.
     after_segment: int
@@ -148,6 +175,16 @@ class Line:
     ------
     InputError
         For an empty line, a clump that is not between two segments, NaN.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> from moyai.mooring import Line, LineType, Segment
+    >>> chain = LineType("chain", submerged_weight=1000.0, axial_stiffness=5e8, breaking_load=2e6)
+    >>> line = Line("line 1", anchor=(50.0, 0.0, -10.0), fairlead=(0.0, 0.0, 0.0), segments=(Segment(chain, 55.0),))
+    >>> state = line.solve(np.array([[0.0, 0.0, 0.0]]), water_depth=10.0)
+    >>> round(float(state.tension_fairlead[0]) / 1000.0, 2)              # [kN]
+    16.04
     """
 
     #: Unique name.
@@ -284,9 +321,20 @@ class Line:
         )
 
 
+@checks_words
 @dataclass(frozen=True)
 class SpringLine:
-    """A straight weightless linear spring between a fixed point and the body, for flume tests and soft guides."""
+    """A straight weightless linear spring between a fixed point and the body, for flume tests and soft guides.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> from moyai.mooring import SpringLine
+    >>> spring = SpringLine("spring", (10.0, 0.0, 0.0), (0.0, 0.0, 0.0), stiffness=500.0, pretension=100.0)
+    >>> state = spring.solve(np.array([[-0.1, 0.0, 0.0]]), water_depth=10.0)
+    >>> round(float(state.tension_fairlead[0]), 3)                       # 100 + 500 * 0.1 [N]
+    150.0
+    """
 
     #: Name, as for :class:`Line`.
     name: str

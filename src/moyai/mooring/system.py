@@ -16,6 +16,7 @@ from numpy.typing import ArrayLike
 
 from moyai.core.arrays import Array
 from moyai.core.errors import InputError
+from moyai.core.options import checks_words
 from moyai.mooring.balance import newton_with_line_search
 from moyai.mooring.lines import LineElement, LineState, Vector
 from moyai.mooring.rotations import cross_matrix, rotation_matrix, spin_of_angle_rates
@@ -150,6 +151,7 @@ class LineSystem:
         path = _positions(position) + steps[:, None] * unit
         return RestoringCurve(steps, unit, self.forces(path), self.tensions(path), self.stiffness(path))
 
+    @checks_words
     def equilibrium(
         self,
         load: ArrayLike,

@@ -50,6 +50,12 @@ class CirculationLaw:
     InputError
         For an unknown name, a strength that is negative or beyond the laminar ceiling of particles, or tables that do
         not rise.
+
+    Examples
+    --------
+    >>> from moyai.morison import CirculationLaw
+    >>> CirculationLaw(strength=0.2).gamma()                             # a number is taken as it is [-]
+    0.2
     """
 
     #: gamma of Gamma = gamma v_x v_y T: a number, or ``arai`` (0.936), ``otsuka`` (1), ``chaplin`` (1.036).

@@ -38,7 +38,15 @@ API_ROUGH = 1e-4
 
 @dataclass(frozen=True)
 class Conditions:
-    """The flow at a strip, by axis of the section where it differs."""
+    """The flow at a strip, by axis of the section where it differs.
+
+    Examples
+    --------
+    >>> from moyai.morison import Conditions
+    >>> flow = Conditions(keulegan_carpenter=8.0, reynolds=2e5, beta=2.5e4)
+    >>> flow.current_governs                                             # no current
+    False
+    """
 
     #: KC = u T / D with the larger amplitude and the larger extent [-].
     keulegan_carpenter: float
@@ -113,7 +121,16 @@ class KeuleganCarpenterTable:
 
 @dataclass(frozen=True)
 class CoefficientRule:
-    """Where the coefficients of a member come from."""
+    """Where the coefficients of a member come from.
+
+    Examples
+    --------
+    >>> from moyai.morison import CoefficientRule, Conditions, sections
+    >>> rule = CoefficientRule(drag=(1.0, 1.0))
+    >>> strip = rule.at(sections.circle(0.5), Conditions(keulegan_carpenter=8.0, reynolds=2e5, beta=2.5e4))
+    >>> strip.drag                                                       # along both axes of the section [-]
+    array([1., 1.])
+    """
 
     #: C_D along both axes, a law of ``DRAG_LAWS``, or a table of one's own.
     drag: tuple[float, float] | str | KeuleganCarpenterTable

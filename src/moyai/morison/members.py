@@ -22,6 +22,13 @@ class StraightMember:
     ------
     InputError
         When an end is not finite or both coincide.
+
+    Examples
+    --------
+    >>> from moyai.morison import StraightMember, sections
+    >>> member = StraightMember(start=(0.0, 0.0, -4.0), end=(3.0, 0.0, 0.0), section=sections.circle(0.5))
+    >>> member.length, member.lowest                                     # [m]
+    (5.0, -4.15)
     """
 
     #: ``start``, ``end``: Ends (x, y, z) [m], z above the reference level of the caller.

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
+from typing import Literal
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -11,6 +12,8 @@ from moyai.core.arrays import Array
 from moyai.core.errors import InputError
 from moyai.morison.net_law_base import NetLaw
 from moyai.morison.nets import Net
+
+WakeName = Literal["none", "loland", "cheng"]
 
 
 def loland_wake(law: NetLaw, net: Net, angle: ArrayLike, speed: ArrayLike, viscosity: float) -> Array:

@@ -6,8 +6,10 @@ import math
 from dataclasses import dataclass
 
 from moyai.core.errors import InputError
+from moyai.core.options import checks_words
 
 
+@checks_words
 @dataclass(frozen=True)
 class Net:
     """Square meshes of twine.
@@ -16,6 +18,13 @@ class Net:
     ------
     InputError
         For lengths that are not positive, or a solidity that is not between 0 and 1.
+
+    Examples
+    --------
+    >>> from moyai.morison import Net
+    >>> net = Net(twine_diameter=2.5e-3, mesh_pitch=25e-3)
+    >>> round(net.solidity, 3), round(net.aperture, 4)                   # 2 d / l - (d / l)^2 [-], [m]
+    (0.19, 0.0225)
     """
 
     #: d [m].
@@ -58,6 +67,7 @@ class Net:
             )
 
     @classmethod
+    @checks_words
     def from_aperture(
         cls, twine_diameter: float, aperture: float, *, solidity_listed: float | None = None, knotted: bool = False
     ) -> Net:

@@ -16,7 +16,15 @@ from moyai.morison.inertia import InertiaCoefficients, inertia_coefficients
 
 @dataclass(frozen=True, eq=False)
 class MemberSection:
-    """The section of a straight member."""
+    """The section of a straight member.
+
+    Examples
+    --------
+    >>> from moyai.morison import sections
+    >>> pipe = sections.circle(0.5)
+    >>> round(pipe.area, 4), pipe.breadth, pipe.is_circle                # [m2], [m]
+    (0.1963, 0.5, True)
+    """
 
     #: Outline in axes of the section: first axis across the member (for a horizontal member along the crests the
     #: direction of the waves), second axis upwards.

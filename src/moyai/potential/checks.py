@@ -11,12 +11,14 @@ from numpy.typing import ArrayLike
 
 from moyai.core.arrays import Array
 from moyai.core.errors import InputError
+from moyai.core.options import check_kind
 from moyai.core.validity import IdentityCheck, Notice
 from moyai.potential.edges import arc_slope, as_complex
 from moyai.potential.heading import HeadingSolution
 from moyai.potential.modes import Modes
 from moyai.potential.plates import WettedPlate
 from moyai.potential.sections import Hull, Section
+from moyai.potential.solution import RadiationDiffraction
 from moyai.sea.water import Water
 
 # Between a plate and the still water [degrees]
@@ -82,15 +84,19 @@ def check_arguments(section: object, modes: object) -> None:
             allowed="a Section",
             remedy="set it into the water: hull.immersed(draught=...)",
         )
-    for name, given, kind in (("section", section, Section), ("modes", modes, Modes)):
-        if not isinstance(given, kind):
-            remedy = "rigid_modes(centre) gives sway, heave and roll" if name == "modes" else "shapes make hulls"
-            raise InputError(
-                f"{type(given).__name__} is no {kind.__name__}",
-                parameter=name,
-                allowed=f"a {kind.__name__}",
-                remedy=remedy,
-            )
+    check_kind(section, Section, "section", "shapes make hulls")
+    check_kind(modes, Modes, "modes", "rigid_modes(centre) gives sway, heave and roll")
+
+
+def check_solution(solution: object) -> None:
+    """Refuse what is not the solution of a section.
+
+    Raises
+    ------
+    InputError
+        With what is to be given.
+    """
+    check_kind(solution, RadiationDiffraction, "solution", "solve the section first: moyai.potential.solve")
 
 
 def check_section(section: Section, water: Water) -> None:

@@ -12,6 +12,7 @@ import numpy as np
 
 from moyai.core.arrays import Array, ComplexArray
 from moyai.core.errors import InputError
+from moyai.potential.checks import check_solution
 from moyai.potential.heading import HeadingSolution
 from moyai.potential.modes import Rigid
 from moyai.potential.panels import GAP, PLATE, Panels, gauss_rule
@@ -89,7 +90,7 @@ def mean_drift_far_field(
     Raises
     ------
     InputError
-        For motions of another shape or not finite, and a heading that was not solved.
+        For motions of another shape or not finite, and a heading that was not solved; for what is no solution.
 
     References
     ----------
@@ -109,6 +110,7 @@ def mean_drift_far_field(
     >>> abs(float(drift.loss[0])) < 1e-3                                 # no energy is lost
     True
     """
+    check_solution(solution)
     part = solution.at_heading(heading)
     velocity = -1j * part.states.omega[:, None] * _amplitudes(solution, motions)
     waves = np.einsum("wj,wjs->ws", velocity, part.radiated_wave)
@@ -178,7 +180,7 @@ def mean_drift_near_field(
     ------
     InputError
         For motions of another shape or not finite, a heading that was not solved, a solution of other modes than those
-        of a rigid section, and thin plates at an oblique heading.
+        of a rigid section, and thin plates at an oblique heading; for what is no solution.
 
     References
     ----------
@@ -196,6 +198,7 @@ def mean_drift_near_field(
     >>> abs(float(near.horizontal[0] / far.horizontal[0]) - 1.0) < 0.01  # both ways agree
     True
     """
+    check_solution(solution)
     part = solution.at_heading(heading)
     (sway, heave, roll), centre = _rigid_centre(solution)
     amplitude = _amplitudes(solution, motions)

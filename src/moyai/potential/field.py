@@ -15,6 +15,7 @@ from numpy.typing import ArrayLike
 
 from moyai.core.arrays import Array, ComplexArray
 from moyai.core.errors import InputError
+from moyai.potential.checks import check_solution
 from moyai.potential.oblique_quadrature import add_helmholtz
 from moyai.potential.panels import GAP, PLATE, Panels, gauss_rule, make_panels
 from moyai.potential.quadrature import add_rankine
@@ -54,7 +55,7 @@ def surface_elevation(
     Raises
     ------
     InputError
-        For motions of another shape or not finite.
+        For motions of another shape or not finite, and for what is no solution.
     IndexError
         For a number of no frequency.
 
@@ -69,6 +70,7 @@ def surface_elevation(
     >>> round(float(abs(far[0])), 2)                                     # its transmission coefficient [m]
     0.73
     """
+    check_solution(solution)
     places = np.atleast_1d(np.asarray(x, dtype=float))
     points = np.stack([places, np.zeros_like(places)], axis=1)
     omega = float(solution.omega[index])

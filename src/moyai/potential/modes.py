@@ -26,6 +26,12 @@ class Modes:
     ------
     InputError
         When names repeat or their number differs from that of the functions.
+
+    Examples
+    --------
+    >>> from moyai.potential import rigid_modes
+    >>> rigid_modes(centre=(0.0, -0.2)).names
+    ('sway', 'heave', 'roll')
     """
 
     #: Unique names: the entries of ``radiating_dof`` and ``influenced_dof``.

@@ -126,6 +126,13 @@ class Hull:
     ------
     InputError
         When there is neither outline nor plate, two outlines overlap or touch, or plates cross what they may not.
+
+    Examples
+    --------
+    >>> from moyai.potential import shapes
+    >>> hull = shapes.rectangle(beam=4.0, height=2.0)
+    >>> hull.beam, hull.height, hull.immersed(draught=1.0).area          # [m], [m], [m2]
+    (4.0, 2.0, 4.0)
     """
 
     #: They may not overlap. None at all is a structure of plates alone.
@@ -240,6 +247,13 @@ class Section:
     ------
     InputError
         When no part is under water, an outline touches the still water from below, or holds a basin of its own.
+
+    Examples
+    --------
+    >>> from moyai.potential import shapes
+    >>> section = shapes.rectangle(beam=4.0, height=2.0).immersed(draught=1.0)
+    >>> section.area, section.bottom, section.waterlines                 # [m2], [m], [m]
+    (4.0, -1.0, ((-2.0, 2.0),))
     """
 
     #: Whole outlines in the frame of the site.

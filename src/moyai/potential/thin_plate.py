@@ -10,7 +10,7 @@ from __future__ import annotations
 import math
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
-from typing import Literal
+from typing import Literal, cast
 
 import numpy as np
 
@@ -18,7 +18,7 @@ from moyai.core.arrays import Array, ComplexArray
 from moyai.core.errors import InputError
 from moyai.core.options import checks_words
 from moyai.potential.edges import arc_position, arc_slope, as_points
-from moyai.potential.modes import DisplacementField, Modes
+from moyai.potential.modes import DisplacementField, Modes, rigid_modes
 from moyai.potential.thin_plate_grid import PlateGrid, plate_grid, with_tails
 from moyai.sea.water import Water
 
@@ -43,6 +43,13 @@ class Plate:
     ------
     InputError
         When the plate has no length, is more than a half circle, or rises above the still water.
+
+    Examples
+    --------
+    >>> from moyai.potential import Plate
+    >>> skirt = Plate(start=(0.0, 0.0), end=(0.0, -2.0))
+    >>> skirt.length, skirt.pierces                                      # [m]
+    (2.0, True)
     """
 
     #: ``start``, ``end``: x, z [m]; the start may lie on the still water z = 0, the end may stand on the bed. Both may
@@ -241,7 +248,7 @@ def _velocities_of(modes: Modes | Sequence[NormalVelocity]) -> Sequence[NormalVe
         return [along_normal(field) for field in modes.functions]
     found = modes if isinstance(modes, Sequence) else (modes,)
     for mode in found:
-        if not callable(mode):
+        if not callable(mode) or mode is cast(object, rigid_modes):
             raise InputError(
                 f"{mode!r} is no motion",
                 parameter="modes",

@@ -29,7 +29,15 @@ LARGEST_CONDITION = 1e3
 
 @dataclass(frozen=True)
 class Parameter:
-    """A parameter to be found."""
+    """A parameter to be found.
+
+    Examples
+    --------
+    >>> from moyai.records import Parameter
+    >>> drag = Parameter("drag coefficient", start=1.0, lower=0.2, upper=3.0)
+    >>> drag.lower < drag.start < drag.upper
+    True
+    """
 
     name: str
     #: First guess.

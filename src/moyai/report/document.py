@@ -88,6 +88,7 @@ class Mark:
         return all(value is None or math.isfinite(value) for value in (self.x, self.y))
 
 
+@checks_words
 @dataclass(frozen=True)
 class Figure:
     """A figure with its data."""
@@ -115,9 +116,18 @@ class Figure:
     hint: str = ""
 
 
+@checks_words
 @dataclass(frozen=True)
 class Column:
-    """A column of a table."""
+    """A column of a table.
+
+    Examples
+    --------
+    >>> from moyai.report import Column
+    >>> column = Column("Tension", [12345.0, 9870.0], unit="N", digits=3)
+    >>> len(column.values)                                               # rows
+    2
+    """
 
     label: str
     #: Numbers (NaN or None: not known), texts or truth values.
@@ -160,9 +170,19 @@ def in_one_unit(columns: Sequence[Column], unit: str = "N") -> tuple[Column, ...
     return tuple(replace(column, like=largest) if column.unit == unit else column for column in columns)
 
 
+@checks_words
 @dataclass(frozen=True)
 class Table:
-    """A table that is shown and written as CSV."""
+    """A table that is shown and written as CSV.
+
+    Examples
+    --------
+    >>> from moyai.report import Column, Table
+    >>> tension = Column("Tension", [12345.0, 9870.0], unit="N")
+    >>> table = Table("tensions", "Tensions", (Column("Line", ["A", "B"]), tension))
+    >>> [column.label for column in table.columns]
+    ['Line', 'Tension']
+    """
 
     #: Unique name and name of the CSV file.
     key: str

@@ -11,6 +11,7 @@ from pathlib import Path
 from moyai.core.errors import CaseError, InputError
 from moyai.core.files import write_whole
 from moyai.core.kinds import kind_of_result
+from moyai.core.options import checks_words
 from moyai.core.results import Result
 from moyai.core.vocabulary import MEASURED_GROUP
 from moyai.language import require_language, spoken_in, spoken_language
@@ -83,6 +84,7 @@ def _composed(result: Result) -> Document:
     return with_first_page(general_page(result), result)
 
 
+@checks_words
 def write_report(
     result: Result,
     directory: str | os.PathLike[str],

@@ -7,6 +7,7 @@ from importlib import import_module
 from typing import Any
 
 from moyai.core.errors import InputError
+from moyai.core.options import checks_words
 from moyai.core.progress import Progress, silent
 from moyai.report.document import Figure
 from moyai.reproduce.model import FilledInput, Finding, Paper, PaperFigure, Statement
@@ -35,6 +36,7 @@ class StatementRow:
         }
 
 
+@checks_words
 @dataclass(frozen=True)
 class Reproduction:
     """A paper computed again."""
@@ -104,6 +106,7 @@ def rows_of(wanted: Paper, runs: Any) -> tuple[StatementRow, ...]:
     return tuple(StatementRow(statement, statement.judge(runs)) for statement in wanted.statements)
 
 
+@checks_words
 def reproduce(
     name: str, *, quick: bool = False, points: tuple[str, ...] = (), progress: Progress = silent
 ) -> Reproduction:
@@ -129,6 +132,13 @@ def reproduce(
     ------
     InputError
         For an unknown paper or figure, or a file of points that cannot be read.
+
+    Examples
+    --------
+    >>> from moyai.reproduce import reproduce
+    >>> found = reproduce("arai", quick=True)
+    >>> len(found.rows), found.count("agrees")                           # statements of the paper
+    (22, 16)
     """
     wanted = paper(name)
     laid_points = [read_points(option, wanted.plotted) for option in points]

@@ -29,6 +29,20 @@ class WaveComponents:
     ------
     InputError
         When the arrays differ in length, are empty or hold a value that is not finite.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> from moyai.sea import Water, wave_number
+    >>> from moyai.sea.components import WaveComponents
+    >>> water = Water(depth=10.0, density=1025.0, gravity=9.81)
+    >>> omega = np.array([0.8, 1.2])
+    >>> sea = WaveComponents(
+    ...     omega, amplitude=np.array([0.5, 0.3]), phase=np.zeros(2), heading=np.zeros(2),
+    ...     wave_number=wave_number(omega, 10.0, 9.81), water=water,
+    ... )
+    >>> round(sea.elevation(0.0), 3), round(sea.significant_height, 3)   # both crests at the origin [m], 4 sqrt(m0) [m]
+    (0.8, 1.649)
     """
 
     #: Angular frequencies in the fixed frame [rad/s], positive.

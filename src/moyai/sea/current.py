@@ -91,7 +91,16 @@ def _check_range(z_bottom: float, z_top: float) -> None:
 
 @dataclass(frozen=True)
 class UniformCurrent(CurrentProfile):
-    """The same current at every height; see :func:`uniform`."""
+    """The same current at every height; see :func:`uniform`.
+
+    Examples
+    --------
+    >>> import math
+    >>> from moyai.sea.current import UniformCurrent
+    >>> tide = UniformCurrent(0.5, heading=math.radians(90.0))
+    >>> tide.velocity(-3.0).round(3).tolist()                            # towards +y [m/s]
+    [0.0, 0.5]
+    """
 
     current_speed: float
     heading: float
@@ -107,7 +116,15 @@ class UniformCurrent(CurrentProfile):
 
 @dataclass(frozen=True)
 class PowerLawCurrent(CurrentProfile):
-    """U (1 + z/h)^exponent; see :func:`power_law`."""
+    """U (1 + z/h)^exponent; see :func:`power_law`.
+
+    Examples
+    --------
+    >>> from moyai.sea.current import PowerLawCurrent
+    >>> tide = PowerLawCurrent(1.0, exponent=1.0 / 7.0, heading=0.0, water_depth=10.0)
+    >>> round(tide.speed(-5.0), 3)                                       # 0.5^(1/7) of the surface speed [m/s]
+    0.906
+    """
 
     surface_speed: float
     exponent: float
@@ -157,7 +174,16 @@ class PowerLawCurrent(CurrentProfile):
 
 @dataclass(frozen=True, eq=False)
 class TabulatedCurrent(CurrentProfile):
-    """Velocity components linear between given heights; see :func:`table`."""
+    """Velocity components linear between given heights; see :func:`table`.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> from moyai.sea.current import TabulatedCurrent
+    >>> measured = TabulatedCurrent(np.array([-10.0, 0.0]), np.array([[0.2, 0.0], [0.6, 0.0]]))
+    >>> round(measured.speed(-5.0), 3)                                   # [m/s]
+    0.4
+    """
 
     z: Array
     components: Array

@@ -87,7 +87,14 @@ class _HalfAngle(Spreading):
 
 @dataclass(frozen=True)
 class CosineTwoS(_HalfAngle):
-    """cos^2s(offset/2) of Longuet-Higgins et al. (1963) with one exponent for all frequencies."""
+    """cos^2s(offset/2) of Longuet-Higgins et al. (1963) with one exponent for all frequencies.
+
+    Examples
+    --------
+    >>> from moyai.sea import CosineTwoS
+    >>> round(float(CosineTwoS(10.0).cumulative(0.0, 1.0)), 6)           # half of the energy to either side
+    0.5
+    """
 
     #: s [-], greater than 0.
     exponent: float
@@ -105,6 +112,13 @@ class Mitsuyasu(_HalfAngle):
     """cos^2s(offset/2) with the frequency-dependent exponent of Mitsuyasu et al. (1975) [eq:sea-mitsuyasu].
 
     s = s_max (f/f_p)^5 below and s_max (f/f_p)^-2.5 above the peak frequency.
+
+    Examples
+    --------
+    >>> from moyai.sea import Mitsuyasu
+    >>> spreading = Mitsuyasu(maximum_exponent=10.0, peak_omega=1.0)
+    >>> float(spreading.exponent_at(1.0))                                # at the peak
+    10.0
     """
 
     #: s_max [-]; :data:`GODA_MAXIMUM_EXPONENTS` holds the usual choices.
@@ -126,7 +140,15 @@ class Mitsuyasu(_HalfAngle):
 
 @dataclass(frozen=True)
 class CosinePower(Spreading):
-    """cos^n(offset) within 90 degrees of the mean heading, zero beyond."""
+    """cos^n(offset) within 90 degrees of the mean heading, zero beyond.
+
+    Examples
+    --------
+    >>> import math
+    >>> from moyai.sea import CosinePower
+    >>> round(float(CosinePower(2.0).density(0.0, 1.0)) * math.pi, 6)    # 2 / pi at the mean heading [1/rad]
+    2.0
+    """
 
     #: n [-], greater than 0.
     exponent: float
@@ -168,7 +190,16 @@ class CosinePower(Spreading):
 
 @dataclass(frozen=True)
 class WrappedNormal(Spreading):
-    """The normal distribution wrapped around the circle."""
+    """The normal distribution wrapped around the circle.
+
+    Examples
+    --------
+    >>> import math
+    >>> from moyai.sea import WrappedNormal
+    >>> spreading = WrappedNormal(standard_deviation=math.radians(20.0))
+    >>> round(float(spreading.cumulative(math.radians(20.0), 1.0)), 3)   # one standard deviation
+    0.841
+    """
 
     #: Of the unwrapped normal [rad], greater than 0.
     standard_deviation: float

@@ -13,7 +13,7 @@ import numpy as np
 
 from moyai.core.arrays import Array
 from moyai.core.errors import InputError
-from moyai.core.options import checks_words
+from moyai.core.options import check_kind, checks_words
 from moyai.sea import dispersion
 from moyai.sea.components import WaveComponents
 from moyai.sea.directional import Spreading, wrapped
@@ -111,6 +111,8 @@ def synthesise(
     >>> sea.elevation([0.0, 1.0, 2.0], 0.0, 0.0).shape               # [m] at three instants at the origin
     (3,)
     """
+    if spreading is not None:
+        check_kind(spreading, Spreading, "spreading", "give one of moyai.sea.directional")
     _check_request(duration, seed, method, count, summation, heading_count, amplitudes)
     low, high = choose_band(spectrum, lower_omega, upper_omega)
     step: float | None

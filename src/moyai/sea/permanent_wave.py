@@ -167,6 +167,7 @@ class NonlinearWave:
         fields, _, shape = self._fields(time, x, y, z)
         return self._in_space(fields[0] + self.current_along_wave, fields[1], shape)
 
+    @checks_words
     def acceleration(
         self, time: ArrayLike, x: ArrayLike, y: ArrayLike, z: ArrayLike, *, convective: bool = True
     ) -> Array:

@@ -24,6 +24,14 @@ class RegularWave:
     ------
     InputError
         When height is negative, period not positive, or the current blocks the wave.
+
+    Examples
+    --------
+    >>> from moyai.sea import RegularWave, Water
+    >>> water = Water(depth=10.0, density=1025.0, gravity=9.81)
+    >>> wave = RegularWave(height=1.0, period=5.0, heading=0.0, water=water)
+    >>> round(wave.wavelength, 2), round(wave.elevation(0.0), 3)         # [m], crest at the origin [m]
+    (36.59, 0.5)
     """
 
     #: Wave height H, crest to trough [m].

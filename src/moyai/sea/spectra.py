@@ -136,6 +136,7 @@ def jonswap(
     )
 
 
+@checks_words
 def goda_factor(peak_enhancement: float, *, zero_crossing: bool) -> float:
     """Return Goda's approximate normalisation of JONSWAP [-] [eq:sea-goda-factor].
 
@@ -151,6 +152,11 @@ def goda_factor(peak_enhancement: float, *, zero_crossing: bool) -> float:
     -------
     float
         Factor of the spectrum [-].
+
+    Raises
+    ------
+    InputError
+        Where ``zero_crossing`` is neither true nor false.
 
     Examples
     --------

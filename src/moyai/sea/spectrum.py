@@ -103,6 +103,15 @@ class Spectrum:
     ------
     InputError
         When the table has fewer than two points, is not increasing, or holds a negative or non-finite value.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> from moyai.sea import Spectrum
+    >>> omega = np.linspace(0.5, 1.5, 101)
+    >>> spectrum = Spectrum(omega, 0.25 * np.ones(101), name="measured")
+    >>> round(spectrum.significant_height, 3)                            # 4 sqrt(0.25 m2) [m]
+    2.0
     """
 
     #: Angular frequencies [rad/s], strictly increasing, not negative.

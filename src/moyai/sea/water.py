@@ -16,6 +16,13 @@ class Water:
     ------
     InputError
         When one of them is not positive (gravity: negative).
+
+    Examples
+    --------
+    >>> from moyai.sea import Water
+    >>> water = Water(depth=10.0, density=1025.0, gravity=9.81)
+    >>> water.with_depth(12.0).depth                                     # at a higher water level [m]
+    12.0
     """
 
     #: Water depth h [m]; ``math.inf`` for infinite depth.

@@ -14,6 +14,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from moyai.core.arrays import Array, ComplexArray
 from moyai.core.errors import InputError
+from moyai.core.single import plain
 
 
 @dataclass(frozen=True, eq=False)
@@ -22,11 +23,11 @@ class Harmonics:
 
     #: Angular frequency of the first harmonic [rad/s].
     omega: float
-    #: Mean value, in the unit of the channel; the shape of one row of the series; shape (...).
+    #: Mean value, in the unit of the channel; the shape of one row of the series, a float for one channel; shape (...).
     mean: Array
     #: Complex amplitudes X_1, X_2, ... of ``Re(X_n exp(-i n omega t))``. Shape (harmonics, ...).
     amplitude: ComplexArray
-    #: Root mean square of what mean and harmonics leave unexplained: unsteadiness or noise; shape (...).
+    #: Root mean square of what mean and harmonics leave unexplained: unsteadiness or noise; shaped as the mean.
     residual: Array
     #: Number of whole periods that were used.
     periods: int
@@ -192,9 +193,9 @@ def _least_squares(
     shape = channels.shape[1:]
     return Harmonics(
         omega,
-        solution[0].reshape(shape),
+        plain(solution[0].reshape(shape)),
         amplitude.reshape(count, *shape),
-        residual.reshape(shape),
+        plain(residual.reshape(shape)),
         periods,
         *window,
     )

@@ -15,6 +15,7 @@ from numpy.typing import ArrayLike
 
 from moyai.core.arrays import Array
 from moyai.core.errors import InputError
+from moyai.core.options import checks_words
 from moyai.series.intervals import student_quantile
 
 
@@ -100,6 +101,7 @@ def _result(
     )
 
 
+@checks_words
 def fit_line(x: ArrayLike, y: ArrayLike, *, through_origin: bool = False, confidence: float = 0.95) -> Regression:
     """Fit y = slope x (+ intercept); pairs with a NaN are left out.
 

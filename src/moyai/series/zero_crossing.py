@@ -12,7 +12,7 @@ from numpy.typing import ArrayLike, NDArray
 from moyai.core.arrays import Array
 from moyai.core.compiled import njit
 from moyai.core.errors import InputError
-from moyai.core.options import checks_words
+from moyai.core.options import check_kind, checks_words
 from moyai.core.validity import Notice
 from moyai.core.wording import counted
 from moyai.series.detrend import Detrend, detrended
@@ -23,7 +23,15 @@ Rounding = Literal["nearest", "down", "up"]
 @checks_words
 @dataclass(frozen=True)
 class WaveOptions:
-    """How a record is cut into waves."""
+    """How a record is cut into waves.
+
+    Examples
+    --------
+    >>> from moyai.series.zero_crossing import WaveOptions
+    >>> options = WaveOptions(crossing="down", dead_band=0.02)
+    >>> options.crossing, options.crest
+    ('down', 'parabola')
+    """
 
     #: A wave begins where the surface rises, or falls, through the mean level.
     crossing: Literal["up", "down"] = "up"
@@ -251,6 +259,7 @@ def find_waves(time: ArrayLike, values: ArrayLike, options: WaveOptions, *, gap:
     >>> len(waves), waves.height.round(2).max().item(), waves.period.round(2).max().item()   # [m], [s]
     (9, 1.0, 6.0)
     """
+    check_kind(options, WaveOptions, "options", "give WaveOptions(crossing=...)")
     t = np.ascontiguousarray(time, dtype=np.float64)
     v = np.ascontiguousarray(values, dtype=np.float64)
     if t.ndim != 1 or t.shape != v.shape:
@@ -319,6 +328,7 @@ def _notices(
     return tuple(notices)
 
 
+@checks_words
 def split_waves(
     time: ArrayLike, values: ArrayLike, *, mean_level: float | None = None, parabolic: bool = False
 ) -> Waves:

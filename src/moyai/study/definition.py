@@ -9,6 +9,7 @@ from typing import Any
 
 from moyai.case.reader import Case
 from moyai.case.yaml_reader import CaseDocument
+from moyai.core.options import checks_words
 from moyai.core.progress import Progress
 from moyai.study import schema
 from moyai.study.axes import Axis, Combination
@@ -18,6 +19,7 @@ RunCase = Callable[[Case, Progress], Any]
 """What runs one case: it takes the case and a listener and returns a ``Result``."""
 
 
+@checks_words
 @dataclass(frozen=True)
 class Study:
     """A study that was read and found sound."""

@@ -14,6 +14,7 @@ from typing import Any
 import numpy as np
 
 from moyai.core.errors import InputError
+from moyai.core.options import checks_words
 from moyai.core.progress import Progress, silent
 from moyai.core.results import Result
 from moyai.study.axes import Combination
@@ -59,6 +60,7 @@ _COST = 20.0
 """Least time between two gatherings over the time that one takes [-]."""
 
 
+@checks_words
 def run_study(
     study: Study,
     folder: Path,

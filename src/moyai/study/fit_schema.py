@@ -36,20 +36,20 @@ class Observations(Block):
 class FitBlock(Block):
     """The fit."""
 
-    title: str = "Fit"
+    title: Annotated[str, Field(description="Title of the report.")] = "Fit"
     base: Annotated[FileName, Field(description="The case, relative to this file.")]
     set: Annotated[dict[str, Value], Field(default_factory=dict, description="Changes that all rows share.")]
     parameters: Annotated[dict[str, Unknown], Field(min_length=1, description="By path.")]
-    observations: Observations
+    observations: Annotated[Observations, Field(description="The file of what was measured.")]
     bootstrap: Annotated[
         Whole | Literal[0], Field(description="Draws; each costs a whole fit. 0: intervals of the covariance.")
     ] = 0
-    seed: Seed = 1
+    seed: Annotated[Seed, Field(description="Of the bootstrap.")] = 1
     step: Annotated[PositiveNumber, Field(description="Relative change by which slopes are found.")] = 1e-4
 
 
 class FitFile(Block):
     """Root of a fit file."""
 
-    moyai: Literal[1]
-    fit: FitBlock
+    moyai: Annotated[Literal[1], Field(description="Version of the file format.")]
+    fit: Annotated[FitBlock, Field(description="Case, unknown values and observations.")]

@@ -17,6 +17,7 @@ from numpy.typing import NDArray
 from moyai.case.faults import did_you_mean
 from moyai.core.arrays import Array
 from moyai.core.errors import InputError
+from moyai.core.options import checks_words
 from moyai.core.quantities import parse_quantity
 from moyai.study.responses import in_stated_unit, selected, split_response
 
@@ -195,6 +196,7 @@ class StudyTable:
         with np.errstate(invalid="ignore"):
             return np.asarray(_COMPARE[sign](column.values, value), dtype=bool)
 
+    @checks_words
     def chosen(self, conditions: Sequence[str], by: str | None, top: int | None, smallest: bool) -> NDArray[np.intp]:
         """Return the numbers of the cases that all conditions hold for, the largest of a response first.
 
@@ -232,6 +234,7 @@ class StudyTable:
                 spread.append((-float(np.ptp(known) / (np.abs(known).max() or 1.0)), name))
         return [name for _, name in sorted(spread)[:most]]
 
+    @checks_words
     def pivot(self, rows: str, columns: str, by: str, index: NDArray[np.intp], smallest: bool) -> Array:
         """Return the largest (or smallest) value of a response over two axes; NaN where no case is left.
 

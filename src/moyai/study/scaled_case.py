@@ -19,6 +19,7 @@ from moyai.case.schema_lines import CatalogueSegment
 from moyai.case.schema_types import Block, QuantityOf
 from moyai.case.yaml_reader import KeyPath, dotted, parse_yaml
 from moyai.core.errors import CaseError, InputError
+from moyai.core.options import checks_words
 from moyai.core.quantities import VISCOSITY, QuantityKind, parse_quantity
 from moyai.design.similarity import Scale, ScaledQuantity
 from moyai.study.scaled_files import scaled_files
@@ -57,6 +58,7 @@ class _Leaf:
     node: Any
 
 
+@checks_words
 def scale_case(case: Case, scale: Scale, *, from_model: bool = False, digits: int = 7) -> ScaledCase:
     """Return a case in another size by Froude with the Cauchy number kept [eq:similarity-ratio].
 

@@ -38,7 +38,7 @@ class Spread(Range):
 class NamedCaseKeys(Block):
     """One named case of a list."""
 
-    label: Name
+    label: Annotated[Name, Field(description="Name of the case in the results.")]
     set: Annotated[dict[str, Value], Field(default_factory=dict, description="Values by their paths.")]
     remove: Annotated[tuple[str, ...], Field(description="Paths that this case leaves out.")] = ()
 
@@ -48,15 +48,15 @@ class NamedCaseKeys(Block):
 class ListOfCases(Block):
     """Named cases, each with what it changes."""
 
-    name: Name = "layout"
-    cases: Annotated[tuple[NamedCaseKeys, ...], Field(min_length=1)]
+    name: Annotated[Name, Field(description="Name of the axis in the results.")] = "layout"
+    cases: Annotated[tuple[NamedCaseKeys, ...], Field(min_length=1, description="The cases, in the order of the axis.")]
 
 
 class TableOfCases(Block):
     """Cases from the rows of a CSV file."""
 
-    name: Name = "row"
-    file: FileName
+    name: Annotated[Name, Field(description="Name of the axis in the results.")] = "row"
+    file: Annotated[FileName, Field(description="CSV with one heading row, relative to this file; a row is a case.")]
     columns: Annotated[
         dict[str, str], Field(min_length=1, description="Path of the case for each column that is used.")
     ]
@@ -68,7 +68,7 @@ class TableOfCases(Block):
 class ReturnPeriods(Block):
     """Waves and currents of several return periods, combined in pairs."""
 
-    name: Name = "return_period"
+    name: Annotated[Name, Field(description="Name of the axis in the results.")] = "return_period"
     waves: Annotated[dict[str, dict[str, Value]], Field(min_length=1, description="Values by return period.")]
     current: Annotated[dict[str, dict[str, Value]], Field(min_length=1, description="Values by return period.")]
     pairs: Annotated[
@@ -80,8 +80,11 @@ class ReturnPeriods(Block):
 class Scatter(Block):
     """A scatter diagram of sea states with their probabilities."""
 
-    name: Name = "sea_state"
-    file: FileName
+    name: Annotated[Name, Field(description="Name of the axis in the results.")] = "sea_state"
+    file: Annotated[
+        FileName,
+        Field(description="CSV, relative to this file: a list of sea states, or a matrix of heights and periods."),
+    ]
     significant_height: Annotated[str, Field(description="Path of the significant wave height.")]
     period: Annotated[str, Field(description="Path of the period by which the diagram is sorted.")]
     counts: Annotated[Truth, Field(description="The cells are numbers of sea states, not probabilities.")] = False
@@ -92,7 +95,7 @@ class JointDistribution(Block):
 
     location: Annotated[Number, Field(description="Smallest height of the Weibull distribution [m].")]
     scale: Annotated[PositiveNumber, Field(description="Of the Weibull distribution [m].")]
-    shape: PositiveNumber
+    shape: Annotated[PositiveNumber, Field(description="Of the Weibull distribution [-].")]
     mean_log: Annotated[tuple[Number, Number, Number], Field(description="a0, a1, a2 in a0 + a1 h^a2.")]
     deviation_log: Annotated[tuple[Number, Number, Number], Field(description="b0, b1, b2 in b0 + b1 exp(b2 h).")]
 
@@ -109,12 +112,17 @@ class PairsOfSeas(Block):
 class ContourKeys(Block):
     """Sea states round an environmental contour (inverse first-order reliability)."""
 
-    name: Name = "contour"
-    years: PositiveNumber
+    name: Annotated[Name, Field(description="Name of the axis in the results.")] = "contour"
+    years: Annotated[PositiveNumber, Field(description="Return period [years].")]
     duration: Annotated[Duration, Field(description="Of a sea state.")]
-    count: Annotated[int, Field(strict=True, ge=4, le=360)] = 24
-    joint: JointDistribution | None = None
-    pairs: PairsOfSeas | None = None
+    count: Annotated[int, Field(strict=True, ge=4, le=360, description="Number of sea states on the contour.")] = 24
+    joint: Annotated[
+        JointDistribution | None,
+        Field(description="Joint distribution of significant height and period, fitted elsewhere."),
+    ] = None
+    pairs: Annotated[
+        PairsOfSeas | None, Field(description="File of sea states to which the joint distribution is fitted.")
+    ] = None
     significant_height: Annotated[str, Field(description="Path of the significant wave height.")]
     period: Annotated[str, Field(description="Path of the period of the joint distribution.")]
     least_height: Annotated[NonNegativeNumber, Field(description="Calmer points are left out [m].")] = 0.0
@@ -125,10 +133,10 @@ class ContourKeys(Block):
 class SpectraOfFile(Block):
     """The spectra of a file of SWAN, WAVEWATCH III, NDBC (or what wavespectra reads), one case a time."""
 
-    name: Name = "record"
-    file: FileName
+    name: Annotated[Name, Field(description="Name of the axis in the results.")] = "record"
+    file: Annotated[FileName, Field(description="File of spectra, relative to this file.")]
     sea: Annotated[str, Field(description="Path of the sea state that they replace.")]
-    place: Annotated[int, Field(strict=True, ge=0)] = 0
+    place: Annotated[int, Field(strict=True, ge=0, description="Number of the place in the file, counted from 0.")] = 0
     records: Annotated[
         tuple[Annotated[int, Field(strict=True, ge=0)], ...],
         Field(description="Numbers of the times; all when absent."),
@@ -139,7 +147,7 @@ class SpectraOfFile(Block):
 class Distribution(Block):
     """How one value is spread."""
 
-    uniform: tuple[Value, Value] | None = None
+    uniform: Annotated[tuple[Value, Value] | None, Field(description="Smallest and largest value.")] = None
     normal: Annotated[tuple[Value, Value] | None, Field(description="Mean and standard deviation.")] = None
     lognormal: Annotated[tuple[Value, Value] | None, Field(description="Mean and standard deviation.")] = None
 
@@ -149,26 +157,31 @@ class Distribution(Block):
 class SampleKeys(Block):
     """Cases drawn from distributions."""
 
-    name: Name = "sample"
-    method: Literal["latin_hypercube", "sobol"] = "latin_hypercube"
-    count: Whole
-    seed: Seed
-    variables: Annotated[dict[str, Distribution], Field(min_length=1)]
+    name: Annotated[Name, Field(description="Name of the axis in the results.")] = "sample"
+    method: Annotated[
+        Literal["latin_hypercube", "sobol"],
+        Field(description="How the samples are spread: Latin hypercube, or the scrambled sequence of Sobol."),
+    ] = "latin_hypercube"
+    count: Annotated[Whole, Field(description="Number of samples.")]
+    seed: Annotated[Seed, Field(description="Of the random numbers; the same seed gives the same samples.")]
+    variables: Annotated[
+        dict[str, Distribution], Field(min_length=1, description="Distribution of each value, by its path.")
+    ]
 
 
 class Seeds(Block):
     """Repetitions of a random sea."""
 
-    name: Name = "seed"
+    name: Annotated[Name, Field(description="Name of the axis in the results.")] = "seed"
     path: Annotated[str, Field(description="Path of the seed.")]
-    count: Whole
-    first: Seed = 1
+    count: Annotated[Whole, Field(description="Number of repetitions.")]
+    first: Annotated[Seed, Field(description="First seed; the next ones follow by 1.")] = 1
 
 
 class LinesLost(Block):
     """The structure with all its lines, and with each of them lost."""
 
-    name: Name = "lost_line"
+    name: Annotated[Name, Field(description="Name of the axis in the results.")] = "lost_line"
     path: Annotated[
         str, Field(description="Path of the list of lines; found by itself where only one list is called so.")
     ] = "lines"
@@ -182,15 +195,21 @@ class VariationKeys(Block):
         dict[str, Annotated[tuple[Value, ...], Field(min_length=1)] | Spread] | None,
         Field(description="Every value of every path with every other."),
     ] = None
-    list: ListOfCases | None = None
-    table: TableOfCases | None = None
-    return_periods: ReturnPeriods | None = None
-    scatter: Scatter | None = None
-    contour: ContourKeys | None = None
-    spectra: SpectraOfFile | None = None
-    sample: SampleKeys | None = None
-    seeds: Seeds | None = None
-    lines_lost: LinesLost | Truth | None = None
+    list: Annotated[ListOfCases | None, Field(description="Named cases, each with what it changes.")] = None
+    table: Annotated[TableOfCases | None, Field(description="Cases from the rows of a CSV file.")] = None
+    return_periods: Annotated[
+        ReturnPeriods | None, Field(description="Waves and currents of several return periods, in pairs.")
+    ] = None
+    scatter: Annotated[
+        Scatter | None, Field(description="Sea states of a scatter diagram, with their probabilities.")
+    ] = None
+    contour: Annotated[ContourKeys | None, Field(description="Sea states round an environmental contour.")] = None
+    spectra: Annotated[SpectraOfFile | None, Field(description="Spectra of a file, a case for each time.")] = None
+    sample: Annotated[SampleKeys | None, Field(description="Cases drawn from distributions.")] = None
+    seeds: Annotated[Seeds | None, Field(description="Repetitions of a random sea.")] = None
+    lines_lost: Annotated[
+        LinesLost | Truth | None, Field(description="true, or a block: the intact structure, and each line lost.")
+    ] = None
 
     exactly_one: ClassVar[KeyGroups] = (
         ("grid", "list", "table", "return_periods", "scatter", "contour", "spectra", "sample", "seeds", "lines_lost"),
@@ -228,16 +247,21 @@ class LimitSearch(Block):
     path: Annotated[str, Field(description="Path of the value that is raised.")]
     first: Annotated[Value, Field(alias="from", description="Value at which the search starts; it should hold.")]
     last: Annotated[Value, Field(alias="to", description="Largest value that is tried.")]
-    conditions: Annotated[tuple[Condition, ...], OneOrMany(), Field(min_length=1)]
+    conditions: Annotated[
+        tuple[Condition, ...], OneOrMany(), Field(min_length=1, description="Conditions that hold below the limit.")
+    ]
     tolerance: Annotated[PositiveNumber, Field(description="Share of the range within which it is found.")] = 0.01
 
 
 class TradeOff(Block):
     """A condition tightened step by step, for a curve of what it costs."""
 
-    name: Name = "trade_off"
-    response: str
-    at_most: Annotated[tuple[Number, ...], Field(min_length=1)]
+    name: Annotated[Name, Field(description="Name of the axis in the results.")] = "trade_off"
+    response: Annotated[str, Field(description="Group and name in results.nc; the largest entry of an array counts.")]
+    at_most: Annotated[
+        tuple[Number, ...],
+        Field(min_length=1, description="Limits of the response, in its SI unit; every one is an optimisation."),
+    ]
 
 
 class Optimisation(Block):
@@ -245,28 +269,37 @@ class Optimisation(Block):
 
     variables: Annotated[dict[str, tuple[Value, Value]], Field(min_length=1, description="Range of every path.")]
     minimise: Annotated[str, Field(description="Response; the largest entry of an array counts.")]
-    subject_to: Annotated[tuple[Condition, ...], OneOrMany()] = ()
-    trade_off: TradeOff | None = None
+    subject_to: Annotated[
+        tuple[Condition, ...], OneOrMany(), Field(description="Conditions that the best values keep.")
+    ] = ()
+    trade_off: Annotated[TradeOff | None, Field(description="A further condition, tightened step by step.")] = None
     starts: Annotated[int, Field(strict=True, ge=1, le=100, description="Starting points spread over the ranges.")] = 3
     evaluations: Annotated[int, Field(strict=True, ge=5, le=10_000, description="Largest number of runs a start.")] = 60
-    seed: Seed = 1
+    seed: Annotated[Seed, Field(description="Of the starting points.")] = 1
 
 
 class LineCodeQuery(Block):
     """A design code that the lines are held against."""
 
     name: Annotated[str, Field(description="Code of the table, or a name for values of your own.")]
-    analysis: Literal["dynamic", "quasi_static", "static"]
+    analysis: Annotated[Literal["dynamic", "quasi_static", "static"], Field(description="How the tensions were found.")]
     consequence: Annotated[str, Field(description="Class of the code, where it has classes.")] = ""
     confirmed: Annotated[Truth, Field(description="You have held the values against the standard.")] = False
-    safety_factor_intact: PositiveNumber | None = None
-    safety_factor_one_lost: PositiveNumber | None = None
+    safety_factor_intact: Annotated[
+        PositiveNumber | None, Field(description="Your own factor with all lines, in place of the values of the table.")
+    ] = None
+    safety_factor_one_lost: Annotated[
+        PositiveNumber | None,
+        Field(description="Your own factor with one line lost, in place of the values of the table."),
+    ] = None
 
 
 class LineChecks(Block):
     """Lines of every case against design codes."""
 
-    codes: Annotated[tuple[LineCodeQuery, ...], OneOrMany(), Field(min_length=1)]
+    codes: Annotated[
+        tuple[LineCodeQuery, ...], OneOrMany(), Field(min_length=1, description="Design codes, each for all lines.")
+    ]
     component: Annotated[
         dict[str, Literal["chain", "rope", "wire", "knotted_rope", "shackle", "used_chain"]],
         Field(default_factory=dict, description="Kind of each line, chain where not given."),
@@ -279,12 +312,15 @@ class LineChecks(Block):
 class AnchorOfLine(Block):
     """The anchor of a line."""
 
-    kind: Literal["sinker", "drag_anchor"]
+    kind: Annotated[
+        Literal["sinker", "drag_anchor"],
+        Field(description="A dead weight on the bed, or an anchor that is embedded by its pull."),
+    ]
     weight: Annotated[PositiveForce, Field(description="Sinker: submerged; drag anchor: in air.")]
     name: Annotated[str, Field(description="Kind in the table: concrete, steel; stockless, danforth, ...")] = ""
     bed: Annotated[str, Field(description="sand, clay, rubble")] = ""
     coefficient: Annotated[PositiveNumber | None, Field(description="In place of the table's value.")] = None
-    safety_factor: PositiveNumber
+    safety_factor: Annotated[PositiveNumber, Field(description="Least holding capacity over the pull of the line.")]
 
     at_least_one: ClassVar[KeyGroups] = (("coefficient", "name"),)
 
@@ -315,7 +351,7 @@ class ExtremesOfSeeds(Block):
     probability: Annotated[
         PositiveNumber, Field(lt=1.0, description="The design value stays above the maximum with this probability.")
     ] = 0.9
-    confidence: Annotated[PositiveNumber, Field(lt=1.0)] = 0.9
+    confidence: Annotated[PositiveNumber, Field(lt=1.0, description="Of the interval of the design value.")] = 0.9
     seed: Annotated[Seed, Field(description="Of the bootstrap.")] = 1
 
 
@@ -326,7 +362,7 @@ class LongTerm(Block):
     over: Annotated[str, Field(description="Axis of the scatter diagram.")] = "sea_state"
     seeds: Annotated[str, Field(description="Axis of the repetitions; the response is exact without one.")] = ""
     duration: Annotated[Duration, Field(description="Of a sea state.")]
-    years: Annotated[tuple[PositiveNumber, ...], Field(min_length=1)]
+    years: Annotated[tuple[PositiveNumber, ...], Field(min_length=1, description="Return periods [years].")]
     waves: Annotated[
         PositiveNumber | None, Field(gt=1.0, description="In a sea state, without seeds; 1000 when absent.")
     ] = None
@@ -358,7 +394,7 @@ class TensionOfLine(Block):
     maximum: Annotated[str, Field(description="Response; the largest entry of an array counts.")]
     mean: Annotated[str, Field(description="Response, for codes that part mean and dynamic tension.")] = ""
     uplift: Annotated[str, Field(description="Response: vertical pull at the anchor.")] = ""
-    breaking_load: PositiveForce
+    breaking_load: Annotated[PositiveForce, Field(description="Minimum breaking load of the line when new.")]
 
 
 class Assessment(Block):
@@ -368,28 +404,44 @@ class Assessment(Block):
         dict[str, TensionOfLine],
         Field(default_factory=dict, description="By a name for the line; found by themselves when absent."),
     ]
-    lines: LineChecks | None = None
+    lines: Annotated[LineChecks | None, Field(description="Check of the lines against design codes.")] = None
     anchors: Annotated[dict[str, AnchorOfLine], Field(default_factory=dict, description="By line.")]
-    extremes: Annotated[tuple[ExtremesOfSeeds, ...], OneOrMany()] = ()
-    long_term: Annotated[tuple[LongTerm, ...], OneOrMany()] = ()
-    fatigue: Annotated[tuple[Fatigue, ...], OneOrMany()] = ()
+    extremes: Annotated[
+        tuple[ExtremesOfSeeds, ...],
+        OneOrMany(),
+        Field(description="Design values from the maxima or peaks of repeated seas."),
+    ] = ()
+    long_term: Annotated[
+        tuple[LongTerm, ...], OneOrMany(), Field(description="Return levels over a scatter diagram.")
+    ] = ()
+    fatigue: Annotated[tuple[Fatigue, ...], OneOrMany(), Field(description="Life of the lines.")] = ()
 
 
 class StudyBlock(Block):
     """The study."""
 
-    title: str = "Study"
+    title: Annotated[str, Field(description="Title of the report.")] = "Study"
     base: Annotated[FileName, Field(description="The base case, relative to this file.")]
     set: Annotated[dict[str, Value], Field(default_factory=dict, description="Changes that all cases share.")]
-    variations: Annotated[tuple[VariationKeys, ...], OneOrMany()] = ()
-    responses: Annotated[tuple[Response, ...], OneOrMany()] = ()
+    variations: Annotated[
+        tuple[VariationKeys, ...],
+        OneOrMany(),
+        Field(description="Ways of varying the case; the study is the product of all of them."),
+    ] = ()
+    responses: Annotated[
+        tuple[Response, ...],
+        OneOrMany(),
+        Field(description="Values to keep of every case, besides those that are always kept."),
+    ] = ()
     watch: Annotated[str, Field(description="Variable whose largest and smallest value is shown on the way.")] = ""
-    assess: Assessment | None = None
+    assess: Annotated[Assessment | None, Field(description="Evaluation of all cases together.")] = None
     replays: Annotated[
         Whole | Literal[0], Field(description="Governing cases that are run again with their own report.")
     ] = 3
-    limit: LimitSearch | None = None
-    optimise: Optimisation | None = None
+    limit: Annotated[
+        LimitSearch | None, Field(description="Search of the largest value up to which the conditions hold.")
+    ] = None
+    optimise: Annotated[Optimisation | None, Field(description="Search of the best values of some paths.")] = None
     on_refused: Annotated[
         Literal["stop", "skip"],
         Field(description="stop: cases that the check refuses stop the study; skip: they become rows with the reason."),
@@ -404,5 +456,5 @@ class StudyBlock(Block):
 class StudyFile(Block):
     """Root of a study file."""
 
-    moyai: Literal[1]
-    study: StudyBlock
+    moyai: Annotated[Literal[1], Field(description="Version of the file format.")]
+    study: Annotated[StudyBlock, Field(description="Base case, variations and evaluation.")]

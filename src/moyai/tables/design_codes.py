@@ -15,6 +15,7 @@ _FACTORS = "anchor_factors.csv"
 
 Component = Literal["chain", "rope", "wire", "knotted_rope", "shackle", "used_chain"]
 Analysis = Literal["dynamic", "quasi_static", "static"]
+RuleName = Literal["safety_factor", "partial_mean", "partial_dynamic", "load_factor", "material_factor", "share"]
 
 
 @checks_words
@@ -35,13 +36,14 @@ class CodeRule:
     #: What a line is made of, or ``any``.
     component: Literal["chain", "rope", "wire", "knotted_rope", "shackle", "used_chain", "any"]
     #: ``safety_factor``, ``partial_mean``, ``partial_dynamic``, ``load_factor``, ``material_factor`` or ``share``.
-    rule: Literal["safety_factor", "partial_mean", "partial_dynamic", "load_factor", "material_factor", "share"]
+    rule: RuleName
     value: float
     #: Whether it was compared with the standard itself.
     confirmed: bool
     source: str
 
 
+@checks_words
 @dataclass(frozen=True)
 class EnduranceData:
     """An endurance curve of the table; see :class:`moyai.design.fatigue.EnduranceCurve`."""

@@ -7,12 +7,14 @@ import math
 from dataclasses import dataclass
 
 from moyai.core.errors import InputError
+from moyai.core.options import checks_words
 from moyai.core.validity import Notice
 from moyai.tables.reader import read_table
 
 _FILE = "lines.csv"
 
 
+@checks_words
 @dataclass(frozen=True)
 class LineProperties:
     """Properties of one mooring line type at one diameter."""

@@ -7,6 +7,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from moyai.core.options import checks_words
 from moyai.tables.reader import Record, read_table
 
 _FILE = "member_drag.csv"
@@ -45,6 +46,7 @@ def _rows(table: str) -> list[Record]:
     return [record for record in read_table(_FILE) if record["table"] == table]
 
 
+@checks_words
 def api_circle(*, rough: bool) -> DragEntry:
     """Return the values of API RP 2A for circular members in storm waves."""
     return _entry(_rows("api")[1 if rough else 0])

@@ -7,6 +7,7 @@ import math
 from dataclasses import dataclass
 
 from moyai.core.errors import InputError
+from moyai.core.options import checks_words
 from moyai.core.validity import Notice
 from moyai.tables.reader import Record, read_table
 
@@ -114,6 +115,7 @@ def _net_row(record: Record) -> NetRow:
     )
 
 
+@checks_words
 @dataclass(frozen=True)
 class NetMaterial:
     """A material of twine with the range of its properties."""

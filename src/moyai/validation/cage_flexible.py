@@ -14,11 +14,12 @@ from moyai.flexible.panels import NetPanels, PanelLaw, forces_on_panels
 from moyai.flexible.ring_kernel import ring_forces
 from moyai.flexible.rings import Ring, RingArrays
 from moyai.morison.net_law_names import Net, net_law
+from moyai.morison.net_wake import WakeName
 from moyai.sea.current import uniform
 from moyai.sea.water import Water
 from moyai.structures.cage.flexible.build import build_cage
 from moyai.structures.cage.flexible.collar import Collar, Pipe
-from moyai.structures.cage.flexible.design import CageDesign, CageNet, Sinkers, WakeName
+from moyai.structures.cage.flexible.design import CageDesign, CageNet, Sinkers
 from moyai.structures.cage.flexible.equilibrium import horizontal_balance, solve_rest
 from moyai.structures.cage.flexible.model import CageMesh, FixedCollar, FlexibleCage
 

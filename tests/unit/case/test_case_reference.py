@@ -47,3 +47,9 @@ def test_every_kind_and_key_is_listed():
         assert f"| `{key}` |" in text
     assert "| `draught` |" in text
     assert "length [m], greater than 0 m or 'infinite' | **required** |" in text
+
+
+@pytest.mark.parametrize("name", pages())
+def test_every_key_has_a_meaning(name):
+    rows = [line for line in reference_markdown(name).splitlines() if line.startswith("| `")]
+    assert rows and not [row for row in rows if not row.split(" | ")[1].strip()]

@@ -10,19 +10,31 @@ from collections.abc import Callable, Iterator
 from dataclasses import dataclass
 from typing import Any, Literal
 
+import numpy as np
 import pytest
 import xarray as xr
 
 import moyai
+from moyai import floating, potential
 from moyai.case import root_schema
 from moyai.core.errors import InputError
 from moyai.core.options import _rules, check_word, checks_words
+from moyai.coupled import RigidBody, simulate_coupled
 from moyai.design import design_code
+from moyai.flexible import BarType, NetworkBuilder
+from moyai.flexible.failures import LineFailure
+from moyai.flexible.flow import Flow
 from moyai.floating import Hydrodynamics
+from moyai.sea import Water, spectra, synthesise
+from moyai.series import find_waves
 
 
 def calls_with_words() -> Iterator[tuple[str, Callable[..., Any], str]]:
-    """Give every public function, method and dataclass that takes an option word, with the name of the argument."""
+    """Give every public function, method and dataclass that takes an option word, with the name of the argument.
+
+    True and false are looked for in what packages hand out: what works inside is called by the package alone.
+    """
+    handed_out = {id(item) for item in things_of_packages()}
     for found in pkgutil.walk_packages(moyai.__path__, "moyai."):
         if found.name.endswith("__main__"):
             continue
@@ -31,8 +43,18 @@ def calls_with_words() -> Iterator[tuple[str, Callable[..., Any], str]]:
             if name.startswith("_") or getattr(item, "__module__", "") != module.__name__:
                 continue
             for label, call, noted in calls_of(name, item):
-                for argument in sorted(_rules(inspect.get_annotations(noted), module.__name__)):
-                    yield f"{found.name}.{label}({argument})", call, argument
+                for argument, (words, items) in sorted(_rules(inspect.get_annotations(noted), module.__name__).items()):
+                    if id(item) in handed_out or {*words, *items} - {True, False, None}:
+                        yield f"{found.name}.{label}({argument})", call, argument
+
+
+def things_of_packages() -> Iterator[Any]:
+    """Give what the packages list in ``__all__``; of a module that is handed out as a whole, what is public in it."""
+    for found in pkgutil.walk_packages(moyai.__path__, "moyai."):
+        package = importlib.import_module(found.name) if found.ispkg else None
+        for name in getattr(package, "__all__", ()):
+            thing = getattr(package, name)
+            yield from vars(thing).values() if inspect.ismodule(thing) else (thing,)
 
 
 def calls_of(name: str, item: Any) -> Iterator[tuple[str, Callable[..., Any], Any]]:
@@ -60,7 +82,8 @@ def test_the_walk_finds_the_calls() -> None:
 
 @pytest.mark.parametrize(("call", "argument"), [item[1:] for item in CALLS], ids=[item[0] for item in CALLS])
 def test_a_word_that_does_not_exist_is_refused(call: Callable[..., Any], argument: str) -> None:
-    with pytest.raises(InputError, match=rf"{argument}: 'no such word' is not a known word; allowed: "):
+    refused = rf"{argument}: 'no such word' is (not a known word|neither true nor false); allowed: "
+    with pytest.raises(InputError, match=refused):
         call(**{argument: "no such word"})
 
 
@@ -72,6 +95,32 @@ class Options:
     many: tuple[Literal["a", "b"], ...] = ("a",)
     one: Literal["up", "down"] | None = None
     number: float = 1.0
+    sure: bool = False
+    held: tuple[bool, bool] | None = None
+
+
+def test_a_line_that_fails_is_told_by_true_or_false_at_which_end() -> None:
+    with pytest.raises(InputError, match="at_end: 'start' is neither true nor false"):
+        LineFailure("line", at_end="start")  # type: ignore[arg-type]
+
+
+@pytest.mark.parametrize("key", ["sure", "held"])
+@pytest.mark.parametrize("value", ["no", "True", 0, 1, 0.0, np.nan, (True, "no"), [1, 0], {}])
+def test_what_is_neither_true_nor_false_is_refused(key: str, value: Any) -> None:
+    with pytest.raises(InputError, match=f"{key}: .* is neither true nor false; allowed: True or False"):
+        Options(**{key: value})
+
+
+def test_true_and_false_in_their_forms() -> None:
+    yes, no = np.array([1.0, 0.0]) > 0.5
+    assert Options(sure=yes).sure == Options(sure=True).sure and Options(sure=no) == Options()
+    for pair in ((True, False), [True, False], np.array([True, False]), (yes, no), None):
+        Options(held=pair)  # type: ignore[arg-type]
+    with pytest.raises(InputError, match="sure: 'None' is neither"):
+        Options(sure=None)  # type: ignore[arg-type]
+    check_word(1, (0, 1), "number")
+    with pytest.raises(InputError, match="'True' is not a known word"):
+        check_word(True, (0, 1), "number")
 
 
 def test_lists_of_words_and_absent_ones() -> None:
@@ -101,3 +150,90 @@ def test_words_that_stand_in_tables_and_data() -> None:
     data = xr.Dataset(coords={"omega": [1.0], "influenced_dof": ["sway"], "radiating_dof": ["sway"]})
     with pytest.raises(InputError, match="did you mean 'sway'"):
         Hydrodynamics.from_dataset(data, modes=("swya",))
+    one = np.eye(2)[None]
+    for modes in ("ab", ("sway", "sway")):
+        with pytest.raises(InputError, match=r"modes: modes are .*; allowed: a tuple of names, each once"):
+            Hydrodynamics(np.ones(1), one, one, np.ones((1, 1, 2), complex), np.zeros(1), modes)  # type: ignore[arg-type]
+
+
+def test_what_moves_already_is_a_body_of_the_run() -> None:
+    body = RigidBody("weight", 500.0, (50.0, 50.0, 50.0), position=(0.0, 0.0, -5.0), points={"eye": (0.0, 0.0, 0.0)})
+    builder = NetworkBuilder(WATER)
+    builder.fixed("top", (0.0, 0.0, 0.0))
+    builder.driven("eye", body.points_at_start["eye"])
+    rope = BarType("rope", mass_per_length=1.0, axial_stiffness=1e6, diameter=0.03)
+    builder.line("line", "top", "eye", rope, length=5.0, segments=4)
+    with pytest.raises(InputError, match=r"carriers: 'wieght' is not a known word.*did you mean 'weight'"):
+        simulate_coupled(
+            builder.build(),
+            {"weight": body},
+            duration=0.2,
+            output_step=0.05,
+            carriers={"wieght": body.carrier(WATER, Flow(), 0.0)},
+        )
+
+
+WATER = Water(depth=10.0, density=1025.0, gravity=9.81)
+HULL = potential.shapes.rectangle(beam=4.0, height=2.0)
+SECTION = HULL.immersed(draught=1.0)
+BODY = {"mass": 4100.0, "centre_of_gravity": (0.0, -0.2), "length": 1.0, "density": 1025.0, "gravity": 9.81}
+SEA = spectra.jonswap(significant_height=2.0, peak_period=7.0, peak_enhancement=3.3)
+TIME = np.arange(100.0)
+MISTAKEN: dict[str, tuple[Callable[..., Any], str]] = {
+    "hull for a section": (
+        lambda: floating.hydrostatics(HULL, **BODY),  # type: ignore[arg-type]
+        r"section: Hull is no Section; allowed: a Section; set a hull into the water",
+    ),
+    "section for a hull": (
+        lambda: floating.find_equilibrium(SECTION, **BODY, draught_start=1.0),  # type: ignore[arg-type]
+        "hull: Section is no Hull; allowed: a Hull; give the hull in its own frame",
+    ),
+    "section that is turned": (
+        lambda: floating.righting_curve(
+            SECTION,  # type: ignore[arg-type]
+            TIME[:2],
+            area=4.0,
+            centre_of_gravity=(0.0, 0.0),
+            draught_start=1.0,
+        ),
+        "hull: Section is no Hull",
+    ),
+    "hull for a solution": (
+        lambda: potential.mean_drift_far_field(HULL),  # type: ignore[arg-type]
+        "solution: Hull is no RadiationDiffraction; .*solve the section first",
+    ),
+    "hull near the body": (
+        lambda: potential.mean_drift_near_field(HULL),  # type: ignore[arg-type]
+        "solution: Hull is no RadiationDiffraction",
+    ),
+    "section for a solution": (
+        lambda: potential.surface_elevation(SECTION, [1.0], 0),  # type: ignore[arg-type]
+        "solution: Section is no RadiationDiffraction",
+    ),
+    "what makes modes": (
+        lambda: potential.solve_plate_limit(
+            potential.Plate((0.0, 0.0), (0.0, -2.0)),
+            WATER,
+            potential.rigid_modes,  # type: ignore[arg-type]
+        ),
+        r"modes: .*rigid_modes.* is no motion; allowed: rigid_modes\(centre\)",
+    ),
+    "crossing for options": (
+        lambda: find_waves(TIME, np.sin(TIME), "down"),  # type: ignore[arg-type]
+        "options: str is no WaveOptions",
+    ),
+    "word for a spreading": (
+        lambda: synthesise(SEA, WATER, duration=100.0, seed=1, spreading="cos2"),  # type: ignore[arg-type]
+        "spreading: str is no Spreading",
+    ),
+    "word for a velocity": (
+        lambda: Flow(velocity="east"),  # type: ignore[arg-type]
+        "velocity of the flow is east; allowed: three finite numbers",
+    ),
+}
+
+
+@pytest.mark.parametrize(("call", "message"), MISTAKEN.values(), ids=MISTAKEN)
+def test_another_kind_of_object_is_refused(call: Callable[..., Any], message: str) -> None:
+    with pytest.raises(InputError, match=message):
+        call()

@@ -6,9 +6,10 @@ import pytest
 from moyai.core.single import plain
 from moyai.core.validity import IdentityCheck
 from moyai.design import EnduranceCurve
+from moyai.floating import response_statistics
 from moyai.mooring import solve_catenary
 from moyai.sea import Water, current, group_velocity, nonlinear_wave, spectra, synthesise, wave_number
-from moyai.series import fit
+from moyai.series import fit, fit_harmonics
 
 
 @pytest.mark.parametrize("value", [2.0, np.float64(2.0), np.array(2.0), np.int64(2)])
@@ -33,6 +34,20 @@ def test_other_numbers_are_floats():
     assert type(IdentityCheck("any", np.float64(1.0), 1.0).value) is float
     fitted = fit(np.random.default_rng(1).gumbel(100.0, 10.0, 50), "gumbel")
     assert {type(getattr(fitted, name)) for name in ("location", "scale", "shape", "log_likelihood")} == {float}
+
+
+def test_one_response_and_one_channel_give_floats():
+    names = ["standard_deviation", "significant", "mean_zero_crossing_period"]
+    omega = np.linspace(0.2, 3.0, 141)
+    one, many = (response_statistics(omega, np.full(shape, 2.0), np.exp(-omega)) for shape in ((141,), (141, 1)))
+    assert {type(getattr(one, name)) for name in names} == {type(one.most_probable_maximum(600.0))} == {float}
+    for name in names:
+        assert getattr(many, name).tolist() == [getattr(one, name)]
+    assert many.most_probable_maximum(600.0).tolist() == [one.most_probable_maximum(600.0)]
+    time = np.arange(0.0, 20.0, 0.05)
+    alone, row = (fit_harmonics(time, np.cos(time).reshape(shape), 1.0, count=1) for shape in ((-1,), (-1, 1)))
+    assert type(alone.mean) is type(alone.residual) is float
+    assert row.mean.tolist() == [alone.mean] and row.residual.tolist() == [alone.residual]
 
 
 WATER = Water(10.0, 1025.0, 9.81)

@@ -255,6 +255,22 @@ def test_words_that_mean_no_value(tmp_path):
         read_record(logger(path, [ColumnSource("h", "level", "m")]))
 
 
+@pytest.mark.parametrize(("decimal", "sign"), [(".", "-99.5"), (".", "-99.50"), (",", "-99,5"), (".", -99.5)])
+@pytest.mark.parametrize("other", ["4", "****"])
+def test_a_sign_given_as_text_is_found_among_numbers(tmp_path, decimal, sign, other):
+    path = tmp_path / "n.csv"
+    path.write_text(f"t;h\n0;1\n1;-99{decimal}5\n2;{other}\n")
+    column = ColumnSource("h", "level", "m", missing=(sign, "****", "4"))
+    source = logger(path, [column], decimal=decimal, delimiter=";")
+    np.testing.assert_array_equal(read_record(source)["level"], [1, np.nan, np.nan])
+
+
+@pytest.mark.parametrize("one", ["-99", -99.0, -99])
+def test_one_sign_is_no_list_of_signs(one):
+    with pytest.raises(InputError, match=r"missing: '-99.*' is one sign"):
+        ColumnSource("h", "level", missing=one)
+
+
 def test_serial_dates_of_a_spreadsheet(tmp_path):
     path = tmp_path / "e.csv"
     start = dt.datetime(1999, 9, 23, 13, 0, tzinfo=dt.UTC)

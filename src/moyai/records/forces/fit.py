@@ -32,7 +32,15 @@ _HUBER = 1.345
 @checks_words
 @dataclass(frozen=True)
 class Setup:
-    """What the record was taken on and how it is read."""
+    """What the record was taken on and how it is read.
+
+    Examples
+    --------
+    >>> from moyai.records import Setup
+    >>> setup = Setup(density=1000.0, area=0.0079, widths=(0.1,), period=2.0)
+    >>> setup.form, setup.confidence
+    ('component', 0.95)
+    """
 
     #: Of the water [kg/m3].
     density: float
@@ -234,7 +242,7 @@ def fit_component(
         force=modelled,
         residual=residual,
         explained=1.0 - float(np.var(residual)) / total if total > 0.0 else math.nan,
-        drag_share=parts[1] / parts[0] if parts[0] > 0.0 else math.inf,
+        drag_share=float(parts[1] / parts[0]) if parts[0] > 0.0 else math.inf,
     )
 
 

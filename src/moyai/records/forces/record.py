@@ -28,6 +28,15 @@ class ForceRecord:
     ------
     InputError
         For gaps, uneven steps, lengths that differ, clipped gauges.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> from moyai.records import ForceRecord
+    >>> time = np.arange(0.0, 20.0, 0.05)
+    >>> record = ForceRecord(time, force=100.0 * np.sin(time)[:, None], velocity=0.5 * np.cos(time)[:, None])
+    >>> round(record.step, 6), record.components                         # [s]
+    (0.05, 1)
     """
 
     #: Evenly spaced [s]; shape (samples,).

@@ -5,6 +5,7 @@ Memory stays bounded by the length of a chunk, so that weeks at 10 Hz pass throu
 
 from __future__ import annotations
 
+import contextlib
 import math
 import re
 from collections.abc import Iterator
@@ -116,7 +117,10 @@ def read_chunks(source: LoggerSource, rows: int = CHUNK_ROWS) -> Iterator[Record
         clock.open(path)
         for raw in _raw(path, source, rows):
             values = np.column_stack(
-                [_values(raw.columns[column.column], column, unit[0]) for column, unit in zip(source.columns, units)]
+                [
+                    _values(raw.columns[column.column], column, unit[0], source.decimal)
+                    for column, unit in zip(source.columns, units)
+                ]
             )
             time, kept, notices = clock.instants(raw)
             holds_value |= np.isfinite(values).any(axis=0)
@@ -214,10 +218,12 @@ def _parsed(unit: str) -> Unit | None:
         return None
 
 
-def _values(raw: NDArray[Any], column: ColumnSource, unit: Unit) -> Array:
+def _values(raw: NDArray[Any], column: ColumnSource, unit: Unit, decimal: str) -> Array:
     values = np.asarray(raw, dtype=np.float64)
-    for sign in (sign for sign in column.missing if not isinstance(sign, str)):
-        values = np.where(np.isclose(values, sign, rtol=1e-6, atol=1e-9), np.nan, values)
+    for sign in column.missing:
+        with contextlib.suppress(ValueError):  # a word, which the reader of texts has left out
+            number = float(sign.replace(decimal, ".") if isinstance(sign, str) else sign)
+            values = np.where(np.isclose(values, number, rtol=1e-6, atol=1e-9), np.nan, values)
     values = np.where(np.isfinite(values), values, np.nan)
     factor = unit.to_si(Fraction(1))
     if column.scale == 1.0 and column.offset == 0.0:

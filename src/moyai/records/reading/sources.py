@@ -22,7 +22,15 @@ ENDINGS = {
 
 @dataclass(frozen=True)
 class ColumnSource:
-    """One column of a file and what it becomes."""
+    """One column of a file and what it becomes.
+
+    Examples
+    --------
+    >>> from moyai.records import ColumnSource
+    >>> level = ColumnSource("h [cm]", "level", unit="cm", missing=(-99.9, "****"))
+    >>> level.name, level.unit
+    ('level', 'cm')
+    """
 
     #: Heading in the file (with or without its unit), a variable (``vel[0,3]`` for an entry of its other dimensions),
     #: or a number counted from 1.
@@ -35,14 +43,31 @@ class ColumnSource:
     scale: float = 1.0
     #: See ``scale``.
     offset: float = 0.0
-    #: Numbers and words that mean "no value".
+    #: Numbers and words that mean "no value"; a word that is a number (``"-99"``) is read as that number too.
     missing: tuple[float | str, ...] = ()
+
+    def __post_init__(self) -> None:
+        if isinstance(self.missing, (str, float, int)):
+            raise InputError(
+                f"'{self.missing}' is one sign, not a list of signs",
+                parameter="missing",
+                remedy=f"give ({self.missing!r},)",
+            )
 
 
 @checks_words
 @dataclass(frozen=True)
 class TimeSource:
-    """Where the time comes from."""
+    """Where the time comes from.
+
+    Examples
+    --------
+    >>> from moyai.records import TimeSource
+    >>> TimeSource(columns=("date", "time"), form="%Y/%m/%d %H:%M:%S").dated
+    True
+    >>> TimeSource(rate=20.0).dated                                      # no stamps: samples are counted
+    False
+    """
 
     #: Column of the time, or two: date and time of day. Empty where the file has none and ``rate`` counts.
     columns: tuple[str | int, ...] = ()
@@ -85,7 +110,17 @@ class ClockCorrection:
 @checks_words
 @dataclass(frozen=True)
 class LoggerSource:
-    """All that is needed to read one logger."""
+    """All that is needed to read one logger.
+
+    Examples
+    --------
+    >>> from pathlib import Path
+    >>> from moyai.records import ColumnSource, LoggerSource, TimeSource
+    >>> columns = (ColumnSource("h [cm]", "level", unit="cm"),)
+    >>> gauge = LoggerSource("gauge", (Path("gauge.csv"),), columns, TimeSource(columns=("t",)))
+    >>> gauge.format_of(Path("gauge.csv"))
+    'csv'
+    """
 
     name: str
     #: In the order of time.

@@ -49,6 +49,7 @@ class Damping:
     band: tuple[float, float] = (1.0, 1.0)
 
 
+@checks_words
 @dataclass(frozen=True)
 class MooringLine:
     """Identical lines between the bed and the body."""

@@ -217,6 +217,7 @@ class AnchorLoadSettings:
         )
 
 
+@checks_words
 @dataclass(frozen=True)
 class LimitSettings:
     """The operating-limit table."""

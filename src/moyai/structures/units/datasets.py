@@ -331,7 +331,7 @@ def irregular_dataset(at: RowAtLevel, sea: IrregularSea, answer: SeaAnswer) -> x
     duration = sea.duration
 
     def largest(transfer: ComplexArray) -> Array:
-        return response_statistics(omega, transfer, density).most_probable_maximum(duration)
+        return np.asarray(response_statistics(omega, transfer, density).most_probable_maximum(duration))
 
     motion = response_statistics(omega, at.in_unit_axes(fine.motion), density)
     load = response_statistics(omega, fine.load, density)

@@ -6,12 +6,14 @@ import json
 from dataclasses import replace
 from pathlib import Path
 
+from moyai.core.options import checks_words
 from moyai.core.progress import Progress, silent
 from moyai.core.results import Result
 from moyai.study.definition import RunCase, Study
 from moyai.study.plan import case_at
 
 
+@checks_words
 def finish_study(
     plan: Study,
     result: Result,

@@ -246,10 +246,7 @@ class _SurveyBuilder:
         return LoggerSource(
             entry.name,
             tuple(files),
-            tuple(
-                ColumnSource(c.column, c.name, c.unit, c.scale, c.offset, tuple(_sign(m) for m in c.missing))
-                for c in entry.channels
-            ),
+            tuple(ColumnSource(c.column, c.name, c.unit, c.scale, c.offset, c.missing) for c in entry.channels),
             TimeSource(
                 columns,
                 time.format or "number",
@@ -383,15 +380,6 @@ def _drift_share(given: float | None, kind: str) -> float:
     if given is not None:
         return given
     return 1.0 if kind in _STEADY_KINDS else math.inf
-
-
-def _sign(given: float | str) -> float | str:
-    """Return a sign of 'no value': a number where the text is one, for 9999 and 9999.0 are the same sign."""
-    try:
-        number = float(given)
-    except ValueError:
-        return str(given)
-    return number if math.isfinite(number) else str(given)
 
 
 def _quality(keys: QualityKeys, kind: str, lowest: float, highest: float) -> QualityOptions:

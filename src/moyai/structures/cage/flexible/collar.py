@@ -9,8 +9,10 @@ import numpy as np
 
 from moyai.core.arrays import Array
 from moyai.core.errors import InputError
+from moyai.core.options import checks_words
 
 
+@checks_words
 @dataclass(frozen=True)
 class Pipe:
     """A round pipe.
@@ -111,6 +113,7 @@ class Pipe:
         return np.asarray(np.sqrt(direct**2 + 3.0 * shear**2))
 
 
+@checks_words
 @dataclass(frozen=True)
 class Collar:
     """The floating collar: one pipe, or two concentric ones held apart by brackets."""

@@ -9,11 +9,11 @@ from typing import Literal
 from moyai.core.errors import InputError
 from moyai.core.options import checks_words
 from moyai.morison.net_law_names import Net, NetLaw
+from moyai.morison.net_wake import WakeName
 from moyai.structures.cage.flexible.collar import Collar, Pipe
 
 Shape = Literal["circular", "square"]
 Bottom = Literal["none", "flat", "cone"]
-WakeName = Literal["none", "loland", "cheng"]
 
 
 def positive(value: float, path: str, unit: str) -> None:

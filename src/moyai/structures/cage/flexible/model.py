@@ -47,6 +47,7 @@ class FixedCollar:
     kind: Literal["fixed"] = "fixed"
 
 
+@checks_words
 @dataclass(frozen=True)
 class FlexibleCage:
     """One cage, or several in rows and columns, with what holds them."""

@@ -27,6 +27,7 @@ VISCOSITY = 1.14e-6  # m2/s, 15 degrees Celsius
 WATER = Water(0.45, 1000.0, 9.81)  # depth of the tests
 
 
+@checks_words
 def model_cage(*, patches: int = 3, weighed_with_floats: bool = False, drag: bool = True) -> RigidCage:
     """Return the cage.
 
@@ -43,6 +44,11 @@ def model_cage(*, patches: int = 3, weighed_with_floats: bool = False, drag: boo
     -------
     RigidCage
         The model cage of the paper.
+
+    Raises
+    ------
+    InputError
+        Where ``weighed_with_floats`` or ``drag`` is neither true nor false.
 
     Examples
     --------

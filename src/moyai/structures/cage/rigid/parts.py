@@ -6,12 +6,15 @@ import itertools
 import math
 from dataclasses import dataclass
 from functools import cached_property
+from typing import Literal
 
 import numpy as np
 
 from moyai.core.arrays import Array
 from moyai.core.errors import InputError
+from moyai.core.options import checks_words
 from moyai.morison.net_law_names import Net, NetLaw
+from moyai.morison.net_wake import WakeName
 
 
 def _points(values: object, name: str) -> Array:
@@ -200,6 +203,7 @@ class PointWeight:
     added_mass: float
 
 
+@checks_words
 @dataclass(frozen=True, eq=False)
 class RigidCage:
     """A rigid cage, symmetric about the plane y = 0.
@@ -208,6 +212,13 @@ class RigidCage:
     ------
     InputError
         When parts lie aside of the plane of symmetry or masses are not positive.
+
+    Examples
+    --------
+    >>> from moyai.structures import model_cage
+    >>> cage = model_cage()
+    >>> round(cage.enclosed_volume, 6), cage.outline                     # [m3]
+    (0.008, 'box')
     """
 
     floats: Floats
@@ -231,10 +242,9 @@ class RigidCage:
     #: Length along x, width and height, for drawings and attachment points [m].
     extent: tuple[float, float, float]
     weights: tuple[PointWeight, ...] = ()
-    #: ``box`` or ``cylinder``.
-    outline: str = "box"
-    #: Law by which the upstream wall shelters the net behind it from the current; one of "none", "loland", "cheng".
-    wake: str = "none"
+    outline: Literal["box", "cylinder"] = "box"
+    #: Law by which the upstream wall shelters the net behind it from the current.
+    wake: WakeName = "none"
 
     def __post_init__(self) -> None:
         _not_negative(self, "net_mass", "net_volume", "net_added_mass", "rod_drag", "rod_added_mass")
@@ -305,7 +315,8 @@ class RigidCage:
         """Mass of net, frame and weights [kg]."""
         return self.mass - self.floats.mass * len(self.floats.points)
 
-    def attachment(self, where: str, side: float) -> tuple[float, float]:
+    @checks_words
+    def attachment(self, where: Literal["top", "middle", "bottom"], side: float) -> tuple[float, float]:
         """Return a point of the cage: ``top``, ``middle`` or ``bottom`` of the side at +x (side 1) or -x (-1) [m]."""
         level = {"top": 0.5, "middle": 0.0, "bottom": -0.5}[where]
         return side * 0.5 * self.extent[0], level * self.extent[2]

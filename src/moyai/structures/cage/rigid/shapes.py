@@ -4,17 +4,20 @@ from __future__ import annotations
 
 import itertools
 import math
-from collections.abc import Sequence
+from typing import Literal
 
 import numpy as np
 
+from moyai.core.options import checks_words
 from moyai.structures.cage.rigid.parts import Patches, Rod, cylinder_wall, disc, join, rectangle
 
+Face = Literal["sides", "bottom", "top"]
 #: Straight pieces that stand for a ring of rod
 RING_PIECES = 24
 
 
-def box_patches(length: float, width: float, height: float, faces: Sequence[str], count: int) -> Patches:
+@checks_words
+def box_patches(length: float, width: float, height: float, faces: tuple[Face, ...], count: int) -> Patches:
     """Return the net of a box from its middle, ``faces`` among sides, bottom, top; lengths in metres."""
     x, y, z = 0.5 * length, 0.5 * width, 0.5 * height
     parts = []
@@ -53,7 +56,8 @@ def box_floats(length: float, width: float, level: float, per_side: int) -> np.n
     return np.array(points)
 
 
-def cylinder_patches(diameter: float, height: float, faces: Sequence[str], count: int) -> Patches:
+@checks_words
+def cylinder_patches(diameter: float, height: float, faces: tuple[Face, ...], count: int) -> Patches:
     """Return the net of an upright cylinder from its middle; lengths in metres."""
     radius, z = 0.5 * diameter, 0.5 * height
     parts = [cylinder_wall(radius, -z, z, count)] if "sides" in faces else []

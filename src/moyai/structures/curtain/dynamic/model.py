@@ -139,6 +139,7 @@ class CurtainSpan:
             )
 
 
+@checks_words
 @dataclass(frozen=True)
 class Mesh:
     """Cells along the span and over the skirt, and the viscosity."""

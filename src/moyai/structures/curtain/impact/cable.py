@@ -14,6 +14,7 @@ from numpy.typing import ArrayLike
 
 from moyai.core.arrays import Array
 from moyai.core.errors import InputError
+from moyai.core.options import checks_words
 from moyai.core.validity import Notice
 from moyai.sea.water import Water
 from moyai.structures.curtain.impact.added_mass import flat_skirt_mass
@@ -33,6 +34,15 @@ class Impact:
     ------
     InputError
         When a number is not positive, the cable is shorter than the span, or the skirt is deeper than the water.
+
+    Examples
+    --------
+    >>> from moyai.sea import Water
+    >>> from moyai.structures import Impact
+    >>> water = Water(depth=10.0, density=1025.0, gravity=9.81)
+    >>> span = Impact(10.0, 10.2, 2.0, upper_stiffness=1e6, lower_stiffness=1e6, speed=0.3, water=water)
+    >>> round(span.span_ratio, 3), span.stiffness                        # [-], of both cables [N]
+    (0.98, 2000000.0)
     """
 
     #: Distance B of the supports [m].
@@ -203,6 +213,11 @@ def closed_form(impact: Impact, mass: float | None = None) -> ImpactPeak:
     ImpactPeak
         Tension of both cables together [N], displacement of the middle [m] and time [s] after the span became taut.
 
+    Raises
+    ------
+    InputError
+        For an added mass that is not positive.
+
     Examples
     --------
     >>> from moyai.sea import Water
@@ -275,6 +290,7 @@ class EdgeImpact:
         return float((self.upper_tension + self.lower_tension).max())
 
 
+@checks_words
 def edge_impact(
     impact: Impact, *, duration: float | None = None, samples: int = 2000, finite_depth: bool = False
 ) -> EdgeImpact:

@@ -7,6 +7,7 @@ from dataclasses import dataclass
 from typing import get_args
 
 from moyai.core.errors import ConvergenceError, InputError
+from moyai.core.options import checks_words
 from moyai.core.validity import Notice
 from moyai.structures.curtain.impact.added_mass import arc_skirt_mass, flat_skirt_mass
 from moyai.structures.curtain.impact.cable import Impact, check_impact, closed_form, edge_impact, peak_by_energy
@@ -71,6 +72,7 @@ class Comparison:
         return next(item.tension for item in self.models if item.model == model)
 
 
+@checks_words
 def compare_models(impact: Impact, skirt: BulgedSkirt | None = None, *, memory: bool = True) -> Comparison:
     """Return the peaks of all models that the data allow.
 

@@ -121,6 +121,7 @@ def shape_of_displacement(impact: Impact, displacement: float) -> float:
     return float(shape_of_sag(sag_ratio(taut) + 2.0 * displacement / impact.span, taut))
 
 
+@checks_words
 def curved_impact(impact: Impact, skirt: BulgedSkirt, *, finite_depth: bool = False) -> ImpactPeak:
     """Return the peak of model A with the added mass of the skirt's just-taut arc in place of the flat plate's.
 
@@ -222,6 +223,7 @@ class JointPeak(ImpactPeak):
     notices: tuple[Notice, ...]
 
 
+@checks_words
 def cable_and_skirt_impact(impact: Impact, skirt: BulgedSkirt, *, finite_depth: bool = False) -> JointPeak:
     """Solve model AB: cable and skirt stretch together, masses frozen at the just-taut arc [eq:impact-cable-skirt].
 

@@ -171,6 +171,7 @@ def utilisation(
     return parts
 
 
+@checks_words
 @dataclass(frozen=True)
 class CurtainSite:
     """Where the curtain hangs, with a family of currents.

@@ -126,6 +126,7 @@ class CurtainStatics:
         return self.float_reserve / self.curtain.floats.buoyancy
 
 
+@checks_words
 def solve_statics(
     curtain: HangingCurtain,
     current: CurrentProfile,
@@ -256,6 +257,7 @@ def supported(
     )
 
 
+@checks_words
 def loaded_section(
     curtain: HangingCurtain,
     current: CurrentProfile,

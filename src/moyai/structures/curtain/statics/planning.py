@@ -4,10 +4,13 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
+from moyai.core.options import checks_words
+
 _KNOT = 1852.0 / 3600.0
 _KILOGRAM_FORCE = 9.80665
 
 
+@checks_words
 @dataclass(frozen=True)
 class PlanningLoad:
     """Load of one planning formula."""
@@ -64,6 +67,7 @@ def itopf_load(area: float, speed: float, density: float) -> PlanningLoad:
     )
 
 
+@checks_words
 @dataclass(frozen=True)
 class CurrentRule:
     """A speed beyond which practice expects failure."""
