@@ -159,7 +159,8 @@ def simulate(
         follow its error.
     step : float, optional
         Time step [s], rounded down to fill an output step; when left out the largest stable one times ``safety``, or,
-        for the implicit methods, what ``tolerance`` asks for.
+        for
+        the implicit methods, what ``tolerance`` asks for.
     safety : float, optional
         Part of the largest stable step, above 0, at most 1. When left out 0.95, or 0.5 where bars may go slack with
         hardly any viscosity. 1 is the pace of the elastic wave: along equal bars wave fronts then travel without error,
