@@ -253,7 +253,7 @@ class Optimisation(Block):
 
 
 class LineCodeQuery(Block):
-    """A design code that the lines are held against."""
+    """A design code that the lines are compared with."""
 
     name: Annotated[str, Field(description="Code of the table, or a name for values of your own.")]
     analysis: Literal["dynamic", "quasi_static", "static"]
