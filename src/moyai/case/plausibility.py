@@ -1,7 +1,7 @@
 """Compare every number of a case with its plausible range, alone and over other numbers of the case.
 
 The ranges stand in one table, ``tables/data/plausible_ranges.csv``. Single keys are judged first; a ratio one of whose
-keys was reported of already says nothing more. What a default gives is not judged: only what stands in the file.
+keys was reported of already says nothing more. What a default gives is not judged: only what is in the file.
 """
 
 from __future__ import annotations

@@ -41,7 +41,7 @@ CodeName = Annotated[str, Field(min_length=1, max_length=80), AfterValidator(_kn
 
 
 class LineCodeKeys(Block):
-    """A design code of mooring lines with what it needs to know."""
+    """A design code of mooring lines with its options."""
 
     name: CodeName = Field(description="Name of the code in the tables.", examples=["DNV-OS-E301"])
     consequence: Name | None = Field(default=None, description="Consequence class, for codes that have classes.")

@@ -155,7 +155,7 @@ STEEP_THEORY = (
 
 
 class SteepRegularWaves(RegularWavesKeys):
-    """Regular waves for structures whose loads know waves of finite height."""
+    """Regular waves for structures whose loads include waves of finite height."""
 
     theory: SteepTheory = Field(default="automatic", description=STEEP_THEORY)  # type: ignore[assignment]
 

@@ -17,7 +17,7 @@ _HEAD = """# Variables of a result
 <!-- made by: python -m moyai.core.vocabulary_page docs/result_variables.md -->
 
 Name, unit and meaning of every variable and label that a result may hold, in SI units.
-[Layout of a result](result_layout.md) says in which group and along which dimensions they stand. A bold name is never
+[Layout of a result](result_layout.md) says in which group and along which dimensions they are. A bold name is never
 missing where the analysis that writes it ran to its end.
 """
 #: Root attributes that separate models of a kind, for :meth:`moyai.core.kinds.Kind.vocabulary_of`.

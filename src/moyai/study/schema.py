@@ -279,7 +279,7 @@ class Optimisation(Block):
 
 
 class LineCodeQuery(Block):
-    """A design code that the lines are held against."""
+    """A design code that the lines are compared with."""
 
     name: Annotated[str, Field(description="Code of the table, or a name for values of your own.")]
     analysis: Annotated[Literal["dynamic", "quasi_static", "static"], Field(description="How the tensions were found.")]

@@ -271,7 +271,7 @@ class CurtainStructure(Block):
 
 
 class Factors(Block):
-    """Safety factors on strength; the same keys stand under 'criteria'."""
+    """Safety factors on strength; the same keys are under 'criteria'."""
 
     cable: SafetyFactor | None = Field(default=None, description="Of the cables. Default: 3.")
     sheet: SafetyFactor | None = Field(default=None, description="Of the sheet, 3 to 5 in practice. Default: 4.")

@@ -161,7 +161,7 @@ class RubberConnector(_EndToEnd):
 
 
 class ChainConnector(_EndToEnd):
-    """Pulls when it is taut, bears nothing before."""
+    """Pulls when it is taut, without force before."""
 
     kind: Literal["chain"] = Field(description="Chain or rope with slack.")
     stiffness: Stiffness = Field(description="When it is taut.")
@@ -169,7 +169,7 @@ class ChainConnector(_EndToEnd):
 
 
 class FenderConnector(_Damped):
-    """Pushes when it is pressed, bears nothing before."""
+    """Pushes when it is pressed, without force before."""
 
     direction: Direction = Field(
         default="y", description="Direction that it pushes in, as 'axis' of a hinge. Default: y, along the row."
