@@ -311,9 +311,9 @@ def _case_of_deck(folder: Path) -> Any:
 
 
 def _output(folder: Path) -> Any:
-    from moyai.interop.moordyn_output import read_moordyn_output
+    from moyai.interop.moordyn_output import read_output
 
-    return read_moordyn_output(folder / "a.out")
+    return read_output(folder / "a.out")
 
 
 DECK = """--- header

@@ -8,7 +8,7 @@ if TYPE_CHECKING:
     from moyai.interop.aqwa import read_aqwa as read_aqwa
     from moyai.interop.bemio import read_bemio as read_bemio
     from moyai.interop.capytaine import read_capytaine as read_capytaine
-    from moyai.interop.moordyn_output import read_moordyn_output as read_moordyn_output
+    from moyai.interop.moordyn_output import read_output as read_output
     from moyai.interop.nemoh import read_nemoh as read_nemoh
     from moyai.interop.read import read_coefficients as read_coefficients
     from moyai.interop.wamit import read_wamit as read_wamit
@@ -22,7 +22,7 @@ else:
             "aqwa": "read_aqwa",
             "bemio": "read_bemio",
             "capytaine": "read_capytaine",
-            "moordyn_output": "read_moordyn_output",
+            "moordyn_output": "read_output",
             "nemoh": "read_nemoh",
             "read": "read_coefficients",
             "wamit": "read_wamit",

@@ -47,7 +47,7 @@ class MoorDynOutput:
 
 
 @reads("an output file of MoorDyn", named="output")
-def read_moordyn_output(path: str | Path) -> MoorDynOutput:
+def read_output(path: str | Path) -> MoorDynOutput:
     """Read an output file (``.out``) of MoorDyn, by itself or within OpenFAST.
 
     Parameters
@@ -70,10 +70,10 @@ def read_moordyn_output(path: str | Path) -> MoorDynOutput:
     --------
     >>> from pathlib import Path
     >>> from tempfile import mkdtemp
-    >>> from moyai.interop import read_moordyn_output
+    >>> from moyai.interop import read_output
     >>> file = Path(mkdtemp(), "lines.out")
     >>> _ = file.write_text("Time FairTen1\\n(s) (kN)\\n0.0 12.5\\n0.1 12.75\\n")
-    >>> read_moordyn_output(file).channels["FairTen1"].tolist()
+    >>> read_output(file).channels["FairTen1"].tolist()
     [12500.0, 12750.0]
     """
     place = Path(path)

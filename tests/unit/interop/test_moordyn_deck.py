@@ -3,7 +3,7 @@
 import pytest
 
 from moyai.core.errors import CaseError, InputError
-from moyai.interop.moordyn_output import read_moordyn_output
+from moyai.interop.moordyn_output import read_output
 from moyai.interop.moordyn_reader import read_deck
 from moyai.interop.moordyn_records import StiffnessTable
 
@@ -250,7 +250,7 @@ def test_current_profile(tmp_path):
 
 
 def test_output_in_si_units(tmp_path):
-    output = read_moordyn_output(
+    output = read_output(
         written(tmp_path, "Time FairTen1 Point2px Rod1Roll\n(s) (kN) (m) (deg)\n0.0 1.5 2.0 180\n0.5 2.5 2.1 90\n")
     )
     assert list(output.time) == [0.0, 0.5]
@@ -273,4 +273,4 @@ def test_output_in_si_units(tmp_path):
 )
 def test_faulty_output(tmp_path, text, words):
     with pytest.raises(InputError, match=words):
-        read_moordyn_output(written(tmp_path, text))
+        read_output(written(tmp_path, text))
