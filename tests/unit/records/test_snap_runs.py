@@ -149,6 +149,7 @@ def test_curves_pass_through_the_model(made) -> None:
     assert {curve.number for curve in model_curves(found.found)} == {"froude", "depth_ratio"}
 
 
+@pytest.mark.slow
 def test_command_writes_result_and_page_and_says_generated(made, tmp_path) -> None:
     _, planted, folder = made
     call = RUN.invoke(app, ["measure", "snaps", str(folder / "set.yaml"), "-o", str(tmp_path / "out"), "--json"])

@@ -158,6 +158,7 @@ def test_slow_part_has_the_response_it_states(ratio):
     assert np.nanmax(np.abs(slow_part(time, gappy, cutoff) - slow)[inner]) < 0.15
 
 
+@pytest.mark.slow
 def test_tide_and_surge_are_taken_off_and_waves_stay():
     random = np.random.default_rng(4)
     time, waves = sea(random, 43200, 0.5)
