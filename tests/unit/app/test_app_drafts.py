@@ -272,7 +272,7 @@ def test_two_pages_take_turns_and_no_answer_is_lost(tmp_path: Path) -> None:
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize(("name", "kind", "count"), [("quick", "member", 100), ("network", "network", 24)])
+@pytest.mark.parametrize(("name", "kind", "count"), [("quick", "member", 100), ("network", "network", 12)])
 def test_random_moves_of_sliders_give_the_numbers_of_fresh_runs(
     tmp_path: Path, name: str, kind: str, count: int
 ) -> None:
