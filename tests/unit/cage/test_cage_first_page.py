@@ -88,7 +88,7 @@ def test_the_band_holds_the_answer_of_a_finer_mesh(monkeypatch):
         raise ConvergenceError("not run")
 
     numbers = []
-    for mesh in ("around: 20, down: 4, bottom: 3", "around: 40, down: 8, bottom: 6"):
+    for mesh in ("around: 24, down: 5, bottom: 3", "around: 48, down: 10, bottom: 6"):
         problem = build(case_of(parse_yaml(text.replace("MESH", mesh), "c.yaml"), Path("c.yaml")))
         if numbers:
             # the finer one needs no band
