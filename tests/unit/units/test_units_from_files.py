@@ -185,7 +185,7 @@ def test_bodies_in_another_order_and_axes(folder, computed, dataset):
         case(folder, *from_file(entry))
     # axes of the file in those of the row: turned back by 90 degrees, its origin at -R(90) (30, -5) = (-5, -30)
     entry += ", x_axis_heading_deg: 90, origin: [-5 m, -30 m]"
-    with pytest.raises(CaseError, match=r"stands in unit 2.*give bodies: \[unit_1, unit_2\]"):
+    with pytest.raises(CaseError, match=r"is in unit 2.*give bodies: \[unit_1, unit_2\]"):
         case(folder, *from_file(entry))
     found = run(build(case(folder, *from_file(entry + ", bodies: [unit_1, unit_2]"))))
     wanted = computed.tree["SWL/frequency/regular"].to_dataset()
