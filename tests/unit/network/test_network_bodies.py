@@ -73,7 +73,7 @@ def test_a_run_with_bodies_goes_on_from_where_it_was_stopped(stopped):
     problem, part, file = stopped
     whole = run(problem)
     assert part.status == "interrupted"
-    assert "settings.resume" in part.message
+    assert "'resume' continues" in part.message
     reached = float(part.tree["SWL/time/waves"]["time"].values[-1])
     assert 1.0 < reached < 2.0
     # rows, state and message tell one and the same time
