@@ -196,7 +196,7 @@ def test_an_interrupted_run_goes_on_from_its_last_state(tmp_path):
 
     part = run(problem, stop)
     assert part.status == "interrupted"
-    assert "settings.resume" in part.message
+    assert "'resume' continues" in part.message
     reached = part.tree["SWL/time/still water"]["time"].values[-1]
     assert 5.0 < reached < 12.0
     part.write(tmp_path / "results.nc")
