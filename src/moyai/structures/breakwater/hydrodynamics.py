@@ -412,7 +412,7 @@ def _solve_band(unit: FloatingUnit, omega: Array, progress: Progress) -> Solved:
 
 
 def _taken_apart(solution: RadiationDiffraction) -> Solved:
-    return solution, Hydrodynamics.of_headings(solution.dataset)
+    return solution, (Hydrodynamics.from_section(solution),)
 
 
 def _refined(unit: FloatingUnit, grid: Array, progress: Progress) -> RadiationDiffraction:
