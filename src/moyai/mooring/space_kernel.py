@@ -1,6 +1,6 @@
-"""Compiled force of lines in space on several bodies for time integration, by the exact solver.
+"""Compiled force of lines in space on several bodies for time integration: tables inside their windows, exact outside.
 
-Every line starts from its last horizontal tension, so that a step along a path takes few iterations.
+The exact solver starts from the last horizontal tension of a line, so that a step along a path takes few iterations.
 """
 
 from __future__ import annotations
@@ -11,13 +11,26 @@ from moyai.core.arrays import Array, IntArray
 from moyai.core.compiled import njit
 from moyai.mooring import planar_kernel as pk
 from moyai.mooring.kernels import solve_single
-from moyai.mooring.planar_kernel import _exact_segmented
+from moyai.mooring.planar_kernel import _exact_segmented, table_force
 
 # as globals of this file, which compiled code can read
 _KIND, _COUNT, _RATE, _NATURAL, _TENSION_ONLY = pk.KIND, pk.COUNT, pk.RATE, pk.NATURAL, pk.TENSION_ONLY
 _LENGTH, _AXIAL, _WEIGHT, _CLEARANCE, _FRICTION = pk.LENGTH, pk.AXIAL, pk.WEIGHT, pk.CLEARANCE, pk.FRICTION
 _ANCHOR, _FAIRLEAD, _ROWS, _ROW_COUNT = pk.ANCHOR_X, pk.FAIRLEAD_X, pk.ROWS, pk.ROW_COUNT
 _UNIFORM, _SPRING = pk.UNIFORM, pk.SPRING
+_TABLE, _XI_COUNT, _Z_COUNT = pk.TABLE, pk.XI_COUNT, pk.Z_COUNT
+_LOOKUP, _XI_BINS, _Z_BINS = pk.LOOKUP, pk.XI_BINS, pk.Z_BINS
+
+
+@njit(cache=True, error_model="numpy")
+def _rotation(roll: float, pitch: float, yaw: float, turn: Array) -> None:
+    """Write the rotation (3, 3) of turns about x, y, z."""
+    cr, sr = np.cos(roll), np.sin(roll)
+    cp, sp = np.cos(pitch), np.sin(pitch)
+    cy, sy = np.cos(yaw), np.sin(yaw)
+    turn[0, 0], turn[0, 1], turn[0, 2] = cy * cp, cy * sp * sr - sy * cr, cy * sp * cr + sy * sr
+    turn[1, 0], turn[1, 1], turn[1, 2] = sy * cp, sy * sp * sr + cy * cr, sy * sp * cr - cy * sr
+    turn[2, 0], turn[2, 1], turn[2, 2] = -sp, cp * sr, cp * cr
 
 
 @njit(cache=True, error_model="numpy")
@@ -27,6 +40,7 @@ def space_line_force(
     parameters: Array,
     index: IntArray,
     nodes: Array,
+    lookup: IntArray,
     memory: Array,
     force: Array,
     tension: Array,
@@ -38,8 +52,8 @@ def space_line_force(
     position : ndarray (6 b,)
         x, y, z [m], turns about x, y, z [rad] of every body, as :mod:`moyai.mooring.system` takes them.
     body : ndarray (lines,) of int
-        That a line holds.
-    parameters, index, nodes : ndarray
+        That a line holds; lines of one body stand together.
+    parameters, index, nodes, lookup : ndarray
         From :class:`moyai.mooring.table.CompiledLines`.
     memory : ndarray (lines,)
         Last horizontal tension of every line; zeros at first; changed here.
@@ -48,16 +62,17 @@ def space_line_force(
     tension : ndarray (lines,)
         Receives the fairlead tension of one copy [N].
     """
+    turn, holder = np.empty((3, 3)), -1
     for i in range(parameters.shape[0]):
         first = 6 * body[i]
         row = parameters[i]
-        cr, sr = np.cos(position[first + 3]), np.sin(position[first + 3])
-        cp, sp = np.cos(position[first + 4]), np.sin(position[first + 4])
-        cy, sy = np.cos(position[first + 5]), np.sin(position[first + 5])
+        if body[i] != holder:
+            holder = body[i]
+            _rotation(position[first + 3], position[first + 4], position[first + 5], turn)
         a, b, c = row[_FAIRLEAD], row[_FAIRLEAD + 1], row[_FAIRLEAD + 2]
-        arm_x = cy * cp * a + (cy * sp * sr - sy * cr) * b + (cy * sp * cr + sy * sr) * c
-        arm_y = sy * cp * a + (sy * sp * sr + cy * cr) * b + (sy * sp * cr - cy * sr) * c
-        arm_z = -sp * a + cp * sr * b + cp * cr * c
+        arm_x = turn[0, 0] * a + turn[0, 1] * b + turn[0, 2] * c
+        arm_y = turn[1, 0] * a + turn[1, 1] * b + turn[1, 2] * c
+        arm_z = turn[2, 0] * a + turn[2, 1] * b + turn[2, 2] * c
         dx = position[first] + arm_x - row[_ANCHOR]
         dy = position[first + 1] + arm_y - row[_ANCHOR + 1]
         dz = position[first + 2] + arm_z - row[_ANCHOR + 2]
@@ -69,17 +84,23 @@ def space_line_force(
                 pull = 0.0
             tension[i] = pull
             h, v = pull * level / length, pull * dz / length
-        elif row[_KIND] == _UNIFORM:
-            h, v, _, _, _, _, _, _, _, _, _ = solve_single(
-                level, dz, row[_LENGTH], row[_AXIAL], row[_WEIGHT], row[_CLEARANCE], row[_FRICTION], memory[i]
-            )
-            memory[i] = h
-            tension[i] = np.sqrt(h * h + v * v)
         else:
-            start, count = index[i, _ROWS], index[i, _ROW_COUNT]
-            rows = nodes[start : start + 4 * count].reshape((count, 4))
-            h, v = _exact_segmented(level, dz, rows, row[_CLEARANCE], row[_FRICTION], memory[i])
-            memory[i] = h
+            h, v, inside = 0.0, 0.0, False
+            if index[i, _TABLE] >= 0:
+                h, v, inside = table_force(
+                    level, dz, index[i, _TABLE], index[i, _XI_COUNT], index[i, _Z_COUNT], index[i, _LOOKUP],
+                    index[i, _XI_BINS], index[i, _Z_BINS], nodes, lookup,
+                )  # fmt: skip
+            if not inside:
+                if row[_KIND] == _UNIFORM:
+                    h, v, _, _, _, _, _, _, _, _, _ = solve_single(
+                        level, dz, row[_LENGTH], row[_AXIAL], row[_WEIGHT], row[_CLEARANCE], row[_FRICTION], memory[i]
+                    )
+                else:
+                    start, count = index[i, _ROWS], index[i, _ROW_COUNT]
+                    rows = nodes[start : start + 4 * count].reshape((count, 4))
+                    h, v = _exact_segmented(level, dz, rows, row[_CLEARANCE], row[_FRICTION], memory[i])
+                memory[i] = h
             tension[i] = np.sqrt(h * h + v * v)
         fx = -row[_COUNT] * h * dx / level if level > 0.0 else 0.0
         fy = -row[_COUNT] * h * dy / level if level > 0.0 else 0.0

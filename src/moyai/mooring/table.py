@@ -289,8 +289,10 @@ def compile_lines(
     system: LineSystem,
     motion_range: tuple[tuple[float, float], tuple[float, float], tuple[float, float]] | None = None,
     tolerance: float | None = None,
+    *,
+    reach: Array | None = None,
 ) -> CompiledLines:
-    """Prepare the lines of a system for planar time integration.
+    """Prepare the lines of a system for time integration.
 
     Parameters
     ----------
@@ -301,13 +303,16 @@ def compile_lines(
     tolerance : float, optional
         Wanted accuracy of the tables over the tension. Without range and tolerance every line is solved exactly, and so
         is a line whose table misses the tolerance twofold (a clump that lifts off the bed).
+    reach : ndarray (lines, 2, 2), optional
+        Least and largest level distance of the ends of every line, and height of the fairlead over the anchor [m], for
+        which tables are made, in place of a planar motion. Lines that are alike share a table.
 
     Raises
     ------
     InputError
         When only one of range and tolerance is given, or a line does not follow the protocol.
     """
-    if (motion_range is None) != (tolerance is None):
+    if (motion_range is None and reach is None) != (tolerance is None):
         raise InputError("tables need both a motion range and a tolerance", parameter="tolerance")
     parameters = np.zeros((len(system.lines), 16))
     index = np.full((len(system.lines), 8), -1, dtype=np.int64)
@@ -332,18 +337,29 @@ def compile_lines(
         row[pk.CLEARANCE], row[pk.FRICTION] = line.bed_clearance(system.water_depth), line.bed_friction
         index[i, pk.ROWS], index[i, pk.ROW_COUNT] = sum(map(len, nodes)), len(rows)
         nodes.append(rows.ravel())
-        if motion_range is not None and tolerance is not None:
+        if tolerance is None:
+            continue
+        if reach is not None:
+            alike = [
+                n for n, other in enumerate(system.lines) if isinstance(other, Line) and _alone(other) == _alone(line)
+            ]
+            window = _wider(line, reach[alike, :, 0].min(axis=0), reach[alike, :, 1].max(axis=0), system.water_depth)
+        else:
+            assert motion_range is not None
             window = _window(line, motion_range, system.water_depth)
-            alone = replace(line, name="line", anchor=(0.0, 0.0, line.anchor[2]), fairlead=(0.0, 0.0, 0.0), count=1)
-            table = _table(alone, system.water_depth, *window, tolerance)
-            if table.measured_error > 2.0 * tolerance:
-                continue  # a clump that lifts off bends the force sharply: no smooth table follows that
-            tables[-1] = table
-            index[i, : pk.ROWS] = table.index
-            index[i, pk.TABLE] = sum(map(len, nodes))
-            index[i, pk.LOOKUP] = sum(map(len, lookups))
-            nodes.append(table.nodes)
-            lookups.append(table.lookup)
+        table = _table(_alone(line), system.water_depth, *window, tolerance)
+        if table.measured_error > 2.0 * tolerance:
+            continue  # a clump that lifts off bends the force sharply: no smooth table follows that
+        index[i, : pk.ROWS] = table.index
+        same = next((n for n, other in enumerate(tables) if other is table), None)
+        tables[-1] = table
+        if same is not None:
+            index[i, [pk.TABLE, pk.LOOKUP]] = index[same, [pk.TABLE, pk.LOOKUP]]
+            continue
+        index[i, pk.TABLE] = sum(map(len, nodes))
+        index[i, pk.LOOKUP] = sum(map(len, lookups))
+        nodes.append(table.nodes)
+        lookups.append(table.lookup)
     return CompiledLines(parameters, index, np.concatenate(nodes), np.concatenate(lookups), tuple(tables))
 
 
@@ -363,11 +379,22 @@ def _window(
     top = motion[1][1] + float(arm_z.max()) - line.anchor[2]
     if line.bed_clearance(depth) >= 0.0:
         bottom = max(bottom, -depth - line.anchor[2] + 1e-9 * line.length)
-    if not (high > low and top > bottom):
+    return _wider(line, np.array([low, bottom]), np.array([high, top]), depth)
+
+
+def _wider(line: Line, least: Array, largest: Array, depth: float) -> tuple[tuple[float, float], tuple[float, float]]:
+    """Widen least and largest distance and height of a fairlead over its anchor, not below the bed."""
+    if not np.all(largest > least):
         raise InputError("the line is taut within the motion range", parameter=f"lines.{line.name}")
-    wide_bottom, wide_top = _outward(bottom, top)
+    low, high = _outward(float(least[0]), float(largest[0]))
+    bottom, top = _outward(float(least[1]), float(largest[1]))
     floor = -math.inf if line.bed_clearance(depth) < 0.0 else -depth - line.anchor[2] + 1e-9 * line.length
-    return _outward(low, high), (max(wide_bottom, floor), wide_top)
+    return (low, high), (max(bottom, floor), top)
+
+
+def _alone(line: Line) -> Line:
+    """Return a line without its name, place and number, which do not count for its table."""
+    return replace(line, name="line", anchor=(0.0, 0.0, line.anchor[2]), fairlead=(0.0, 0.0, 0.0), count=1)
 
 
 def _outward(low: float, high: float) -> tuple[float, float]:

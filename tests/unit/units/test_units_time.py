@@ -29,6 +29,7 @@ from moyai.structures.units.model import Connector, Curve, UnitLine, UnitSetting
 from moyai.structures.units.response import RowModel, respond
 from moyai.structures.units.seas import regular_answer
 from moyai.structures.units.time import damping as damping_in_time
+from moyai.structures.units.time import model as model_in_time
 from moyai.structures.units.time import seas as seas_in_time
 from moyai.structures.units.time.analysis import SeaInTime, sea_in_time
 from moyai.structures.units.time.damping import curves_bear, with_ends_in_time
@@ -299,8 +300,12 @@ def test_lines_in_motion_keep_the_change_of_lines_at_rest(monkeypatch):
     )
     found = SeaInTime({"": data, "/T4": data}, [], "converged")
     ends = {0.5: [72.0, 15.0], 2.0: [54.0, 18.0]}
-    monkeypatch.setattr(damping_in_time, "runs_of", lambda water, sea, answers, progress: answers)
-    monkeypatch.setattr(damping_in_time.KeptRun, "of", staticmethod(lambda run: SimpleNamespace(status=run)))
+    monkeypatch.setattr(
+        damping_in_time, "runs_of",
+        lambda water, sea, answers, take, progress: (
+            [SimpleNamespace(status=run) for run in answers], "interrupted" in answers
+        ),
+    )  # fmt: skip
     monkeypatch.setattr(
         damping_in_time, "numbers_of",
         lambda row, sea, runs: xr.Dataset({"line_tension_maximum": (dims, ends[row])}, coords=data.coords),
@@ -438,11 +443,39 @@ def test_compiled_lines_in_space_are_the_lines():
         position = np.zeros(12)
         position[6:] = generator.normal(size=6) * np.array([1.0, 1.0, 0.5, 0.05, 0.1, 0.1])
         force, tension = np.zeros(12), np.zeros(3)
-        space_line_force(position, body, packed.parameters, packed.index, packed.nodes, last, force, tension)
+        space_line_force(position, body, *packed.arguments, last, force, tension)
         exact = system.forces(position[6:])
         assert np.all(force[:6] == 0.0)
         assert np.allclose(force[6:], exact, rtol=1e-6, atol=1e-6 * np.abs(exact).max())
         assert np.allclose(tension, system.tensions(position[6:]), rtol=1e-6)
+
+
+def test_tables_of_lines_in_space_hold_their_tolerance_and_beyond_them_lines_are_exact():
+    generator = np.random.default_rng(9)
+    chain = LineType("chain", submerged_weight=900.0, axial_stiffness=3e7)
+    ends = ((-50.0, 12.0, -10.0), (-5.0, 8.0, -1.0)), ((50.0, -14.0, -10.0), (5.0, -8.0, -1.0))
+    lines = (
+        *(Line(f"chain {n}", *end, (Segment(chain, 48.0),)) for n, end in enumerate(ends)),
+        SpringLine("spring", (20.0, -3.0, 2.0), (4.0, -9.0, 1.0), 2e4, 1e3),
+    )
+    system = LineSystem(lines, 10.0)
+    reach = np.array([[[43.0, 46.0], [8.2, 9.8]], [[42.5, 46.0], [8.2, 9.8]], [[0.0, 0.0], [0.0, 0.0]]])
+    packed = compile_lines(system, tolerance=1e-4, reach=reach)
+    # lines that are alike share a table
+    assert packed.tables[0] is packed.tables[1] is not None and packed.tables[2] is None
+    assert packed.nodes.size < 1.5 * packed.tables[0].nodes.size
+    body, last, within = np.zeros(3, dtype=np.int64), np.zeros(3), []
+    for width in (0.3, 2.0):
+        for _ in range(100):
+            position = width * generator.normal(size=6) * np.array([1.0, 1.0, 0.5, 0.03, 0.05, 0.05])
+            force, tension = np.zeros(6), np.zeros(3)
+            space_line_force(position, body, *packed.arguments, last, force, tension)
+            exact, pulls = system.forces(position), system.tensions(position)
+            assert np.all(np.abs(tension - pulls) <= 1.5e-4 * np.abs(pulls))
+            assert np.all(np.abs(force[:3] - exact[:3]) <= 1.5e-4 * np.abs(pulls).sum())
+            within.append(np.max(np.abs(tension - pulls) / np.abs(pulls)) > 1e-9)
+    # both ways were taken
+    assert 0 < sum(within) < 200
 
 
 CHAIN = LineType("chain", submerged_weight=280.0, axial_stiffness=3e7, breaking_load=1e6)
@@ -458,6 +491,22 @@ def moored():
         for name, x in (("west", -5.0), ("east", 5.0))
     ]
     return at_rest(HINGE, lines=lines)
+
+
+def test_a_run_on_tables_is_that_on_exact_lines(monkeypatch, memory):
+    at = moored()
+    step = 0.1
+    time = step * np.arange(2500)
+    load = np.zeros((len(time), at.size))
+    load[:, [0, 6]] = 1.5e6 * np.sin(1.1 * time)[:, None] * np.minimum(time / 20.0, 1.0)[:, None]
+    runs = {}
+    for begin in (300, len(time)):
+        monkeypatch.setattr(model_in_time, "STEPS_BEFORE_TABLES", begin)
+        runs[begin] = RowInTime(at, memory, np.zeros(at.size), 1.1).run(load, step)
+    tables, exact = runs.values()
+    assert exact.tension.max() > 3.0 * exact.tension.mean()
+    assert 0.0 < np.abs(tables.tension - exact.tension).max() < 1e-3 * exact.tension.max()
+    assert np.abs(tables.position - exact.position).max() < 1e-4 * np.abs(exact.position).max()
 
 
 def swaying(at, period, amplitude):

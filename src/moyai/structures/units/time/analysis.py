@@ -3,13 +3,14 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator
+from collections.abc import Callable
 from dataclasses import dataclass, replace
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, TypeVar
 
 import numpy as np
 
 from moyai.core.arrays import Array
+from moyai.core.at_once import one_after_the_other
 from moyai.core.errors import ConvergenceError, InputError
 from moyai.core.progress import Progress
 from moyai.core.store import DatasetStore
@@ -36,6 +37,7 @@ from moyai.structures.units.variables import labelled
 if TYPE_CHECKING:
     import xarray as xr
 
+Found = TypeVar("Found")
 #: Peak periods in a record, below which its largest values say nothing of the sea state
 LEAST_WAVES = 10.0
 #: Natural periods of sway in a record, for its largest slow excursion to be near its most probable
@@ -109,13 +111,8 @@ def sea_in_time(
     water: Water3D, sea: RegularSea | IrregularSea, answers: list[SeaAnswer], progress: Progress
 ) -> SeaInTime:
     """Run all periods or all realisations of a sea."""
-    runs: list[KeptRun] = []
-    carried: list[list[Carried]] = []
-    for run in runs_of(water, sea, answers, progress):
-        runs.append(KeptRun.of(run))
-        if not run.complete:
-            break
-        carried.append([_carried(part) for part in run.parts])
+    found, stopped = runs_of(water, sea, answers, _kept_and_carried, progress)
+    runs, carried = [run for run, _ in found], [parts for run, parts in found if run.status == "converged"]
     good = [item for item in runs if item.status == "converged"] or runs[:1]
     regular = isinstance(sea, RegularSea)
     notices: list[Notice] = []
@@ -130,13 +127,14 @@ def sea_in_time(
             data, further = _in_motion(water, sea, data, [member for (member,) in carried], progress)
             notices += further
         groups = {"realisation": good[shown_run(good)].series}
-    data.attrs["status"] = status_of(runs)
+    status = "interrupted" if stopped else status_of(runs)
+    data.attrs["status"] = status
     data.attrs["drift"] = "none" if not water.settings.drift else "mean" if regular else "newman"
     bad = [item.message for item in runs if item.status == "diverged"]
     return SeaInTime(
         {"": data} | {f"/{name}": item for name, item in groups.items()},
         [*notices, *_notices(water, sea, data, good)],
-        status_of(runs), bad[0] if bad else "",
+        status, bad[0] if bad else "",
     )  # fmt: skip
 
 
@@ -148,16 +146,52 @@ def numbers_of(at: RowAtLevel, sea: RegularSea | IrregularSea, runs: list[KeptRu
 
 
 def runs_of(
-    water: Water3D, sea: RegularSea | IrregularSea, answers: list[SeaAnswer], progress: Progress
-) -> Iterator[SeaRun]:
-    """Yield the run of every period or realisation of a sea."""
-    if isinstance(sea, RegularSea):
-        for period, answer in zip(sea.periods, answers):
-            yield repeating_run(water, sea, period, answer, progress)
-        return
-    for number in range(water.time.realisations):
-        progress(f"realisations, {water.at.name}, {sea.name}", number, water.time.realisations)
-        yield irregular_run(water, sea, number, answers[0], progress)
+    water: Water3D, sea: RegularSea | IrregularSea, answers: list[SeaAnswer], take: Callable[[SeaRun], Found],
+    progress: Progress,
+) -> tuple[list[Found], bool]:  # fmt: skip
+    """Return what is taken of the run of every period or realisation of a sea, and whether they were stopped.
+
+    So many run at a time as there are cores. The first that does not come to its end is the last.
+
+    Raises
+    ------
+    KeyboardInterrupt
+        When it comes before there is anything.
+    """
+    found: dict[int, tuple[str, Found]] = {}
+
+    def run(number: int, heard: Progress) -> str:
+        if isinstance(sea, RegularSea):
+            ended = repeating_run(water, sea, sea.periods[number], answers[number], heard)
+        else:
+            ended = irregular_run(water, sea, number, answers[0], heard)
+        found[number] = ended.run.status, take(ended)
+        return ended.run.status
+
+    regular, where = isinstance(sea, RegularSea), f"{water.at.name}, {sea.name}"
+    numbers = range(len(answers) if regular else water.time.realisations)
+    stopped = False
+    try:
+        for status in one_after_the_other(run, numbers, f"{'time' if regular else 'realisations'}, {where}", progress):
+            if status != "converged":
+                break
+    except KeyboardInterrupt:
+        stopped = True
+        if not found:
+            raise
+    out: list[Found] = []
+    for number in numbers:
+        status, taken = found.get(number, ("", None))
+        if taken is None:
+            break
+        out.append(taken)
+        if status != "converged":
+            return out, stopped or status == "interrupted"
+    return out, stopped
+
+
+def _kept_and_carried(run: SeaRun) -> tuple[KeptRun, list[Carried]]:
+    return KeptRun.of(run), [_carried(part) for part in run.parts]
 
 
 def _carried(run: SeaRun) -> Carried:

@@ -64,8 +64,11 @@ def with_ends_in_time(
     own = {name: data[still if name == _TENSION and still in data else name].values for name in BANDED if name in data}
     ends = []
     for row, answers in others:
-        runs = [KeptRun.of(run) for run in runs_of(replace(water, at=row), sea, answers, progress)]
-        if any(run.status == "interrupted" for run in runs):
+        try:
+            runs, stopped = runs_of(replace(water, at=row), sea, answers, KeptRun.of, progress)
+        except KeyboardInterrupt:
+            stopped = True
+        if stopped:
             return replace(found, status="interrupted")
         if any(run.status != "converged" for run in runs):
             return found

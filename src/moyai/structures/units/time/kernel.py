@@ -197,7 +197,8 @@ def march(
     held : ndarray (k, c, r), complex
         Residues of the loads of the constraints.
     lines : tuple
-        Body of every line, parameters, index, nodes, last tensions.
+        Body of every line, parameters, index, nodes, lookup, last tensions, what lines push beyond their tangent at the
+        last three steps (3, r), the newest first.
     joints : tuple
         Of every curve: its units (j, 2), arms of its ends (j, 2, 3), 1 where turns count to second order (j,),
         direction (j, 3) and length (j,) at rest (zero: it keeps its direction); then points of all curves, where each
@@ -209,7 +210,7 @@ def march(
     """
     inverse, damping, stiffness, basis, tangent, balanced = body
     decay, before, after, residues = memory
-    holder, parameters, index, nodes, last = lines
+    holder, parameters, index, nodes, lookup, last, pushes = lines
     edges, rough, water = drag
     pairs, arms, bends, axes, spans, xs, fs, ends, dashpots, sides = joints
     r, k, m, j = y.size, decay.size, basis.shape[0], spans.size
@@ -256,6 +257,9 @@ def march(
             ahead[i] = y_p[i] + 0.25 * h * h * a[i]
         _draw(ahead, basis, pairs, arms, bends, axes, spans, drawn_next, along_next)
         settled, straight = False, True
+        for i in range(r):
+            # continued along a parabola: a pass less than from the last step
+            pushed[i] = 3.0 * (pushes[0, i] - pushes[1, i]) + pushes[2, i]
         for _ in range(_PASSES):
             if j > 0:
                 drawn[:], along[:] = drawn_next, along_next
@@ -303,7 +307,7 @@ def march(
                     total += basis[i, n] * ahead[n]
                 q[i] = total
                 pull[i] = 0.0
-            space_line_force(q, holder, parameters, index, nodes, last, pull, tension)
+            space_line_force(q, holder, parameters, index, nodes, lookup, last, pull, tension)
             # what is left of forces in balance is rounding
             size, apart = at_rest, 0.0
             former[:] = pushed
@@ -325,6 +329,7 @@ def march(
         if not settled:
             return UNSETTLED, step
         for i in range(r):
+            pushes[2, i], pushes[1, i], pushes[0, i] = pushes[1, i], pushes[0, i], pushed[i]
             y[i] = y_p[i] + 0.25 * h * h * new[i]
             v[i] = v_p[i] + 0.5 * h * new[i]
             a[i] = new[i]

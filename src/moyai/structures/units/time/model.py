@@ -13,6 +13,7 @@ import numpy as np
 from moyai.core.arrays import Array, ComplexArray
 from moyai.core.options import checks_words
 from moyai.core.progress import Progress, silent
+from moyai.mooring.lines import LineElement
 from moyai.mooring.system import LineSystem
 from moyai.mooring.table import compile_lines
 from moyai.structures.units.assembly import RowAtLevel, held_load
@@ -28,6 +29,11 @@ LIMIT = 10.0
 #: Steps of a contact between two units, of a period of the shortest waves
 STEPS_OF_CONTACT, STEPS_OF_WAVE = 20, 40
 SECONDS_BETWEEN_LOOKS = 0.3
+#: Steps in which lines are solved exactly; tables then serve within what their ends moved, widened by this share of it
+#: and at least so far [m] either way
+STEPS_BEFORE_TABLES, WIDENED, LEAST_WIDENED = 4096, 0.3, 0.01
+#: Accuracy of the tables over the tension
+TABLE_TOLERANCE = 1e-4
 
 
 @dataclass(frozen=True, eq=False)
@@ -89,12 +95,29 @@ class RowInTime:
             fastest = max(fastest, float(np.sqrt(max(light * steepest, 0.0))))
         return 2.0 * math.pi / fastest / STEPS_OF_CONTACT if fastest > 0.0 else math.inf
 
-    def _lines(self) -> tuple[Any, ...]:
-        every = [line for lines in self.at.lines for line in lines]
+    def _lines(self, moved: Array | None = None) -> tuple[Any, ...]:
+        """Return the lines for the kernel, with tables about the motions (n, m) of the units where these are given."""
+        every = tuple(line for lines in self.at.lines for line in lines)
         holder = np.array([n for n, lines in enumerate(self.at.lines) for _ in lines], dtype=np.int64)
         depth = self.at.water.depth + float(self.at.centres[0, 2])
-        packed = compile_lines(LineSystem(tuple(every), depth))
-        return holder, packed.parameters, packed.index, packed.nodes, np.zeros(len(every))
+        reach = None if moved is None or not every else self._reach(every, moved)
+        packed = compile_lines(
+            LineSystem(every, depth), tolerance=None if reach is None else TABLE_TOLERANCE, reach=reach
+        )
+        return holder, *packed.arguments
+
+    def _reach(self, every: tuple[LineElement, ...], moved: Array) -> Array:
+        """Return least and largest level distance and height of the ends of every line (lines, 2, 2), widened."""
+        ends = np.concatenate(
+            [system.fairleads(moved[:, 6 * n : 6 * n + 6]) for n, system in enumerate(self.at.systems)], axis=1
+        )
+        apart = ends - np.array([line.anchor for line in every])
+        over = np.stack([np.hypot(apart[..., 0], apart[..., 1]), apart[..., 2]], axis=-1)
+        least, largest = over.min(axis=0), over.max(axis=0)
+        room = np.maximum(WIDENED * (largest - least), LEAST_WIDENED)
+        least, largest = least - room, largest + room
+        least[:, 0] = np.maximum(least[:, 0], 0.0)
+        return np.stack([least, largest], axis=-1)
 
     def _joints(self) -> tuple[Any, ...]:
         links = self.at.links
@@ -143,6 +166,7 @@ class RowInTime:
         stiffness = free.T @ self.stiffness @ free + tangent
         inverse = np.linalg.inv(mass + 0.5 * step * damping + 0.25 * step**2 * stiffness)
         lines, joints = self._lines(), self._joints()
+        so_far = np.zeros(len(lines[0])), np.zeros((3, free.shape[1]))
         count, size, link_count = len(load), free.shape[1], len(at.links)
         saved = (
             np.zeros((count, size)), np.zeros((count, size)), np.zeros((count, size)), np.zeros((count, len(g))),
@@ -160,22 +184,21 @@ class RowInTime:
             np.ascontiguousarray(inverse), np.ascontiguousarray(damping), np.ascontiguousarray(stiffness),
             np.ascontiguousarray(free), np.ascontiguousarray(tangent), self.balanced,
         )  # fmt: skip
-        given = np.ascontiguousarray(load @ free)
-        arguments = (
-            given,
-            body,
-            (decay, before, after, reduced),
-            held,
-            lines,
-            joints,
-            drag,
-            LIMIT * at.row.length,
-            saved,
-        )
-        done, status, message = _driven(
-            lambda first, steps: kernel.march(y, v, a, z, first, steps, step, *arguments), count - 1, step, progress,
-            name,
-        )  # fmt: skip
+        given, limit = np.ascontiguousarray(load @ free), LIMIT * at.row.length
+
+        def advance(first: int, steps: int) -> tuple[int, int]:
+            nonlocal lines
+            if first < STEPS_BEFORE_TABLES:
+                steps = min(steps, STEPS_BEFORE_TABLES - first)
+            elif first == STEPS_BEFORE_TABLES:
+                lines = self._lines(saved[0][: first + 1] @ free.T)
+            memory = (decay, before, after, reduced)
+            code, good = kernel.march(
+                y, v, a, z, first, steps, step, given, body, memory, held, (*lines, *so_far), joints, drag, limit, saved
+            )
+            return code, good
+
+        done, status, message = _driven(advance, count - 1, step, progress, name)
         end = done + 1
         y_s, v_s, a_s, memory_s, line_s, tension_s, link_s = (item[:end] for item in saved)
         return RowRun(
