@@ -234,4 +234,5 @@ def rerun_events(at: RowAtLevel, members: Sequence[Carried], progress: Progress,
             left = events[number][len(found[number])][1] if len(found[number]) < len(events[number]) else 0.0
             bound[number, line] = max(out[number, line], left * ratio)
         best = max(best, float(np.mean(bound[:, line]) / load[line]))
+    progress(f"lines in motion{name}", 1, 1)
     return Reruns(out, bound, count)
