@@ -241,3 +241,12 @@ def test_linear_restoring_depends_on_the_distance_from_its_rest_alone():
     assert np.allclose(forces[0], forces[1], atol=1e-9)
     along = np.concatenate([turn.T @ offset, [0.0, 0.0, yaw]])
     assert np.allclose(forces[0], -stiffness @ along, atol=1e-9)
+
+
+@pytest.mark.parametrize(("rest", "yaw", "turned"), [(3.0, -3.0, 2.0 * np.pi - 6.0), (-2.5, 2.5, 5.0 - 2.0 * np.pi)])
+def test_linear_restoring_in_yaw_turns_back_the_shorter_way(rest, yaw, turned):
+    stiffness = np.diag([0.0, 0.0, 0.0, 0.0, 0.0, 7.0])
+    turn = np.array([[np.cos(yaw), -np.sin(yaw), 0.0], [np.sin(yaw), np.cos(yaw), 0.0], [0.0, 0.0, 1.0]])
+    force = np.zeros(6)
+    rigid_kernel._restoring(np.zeros(13), turn, stiffness, np.array([0.0, 0.0, 0.0, rest, 0.0, 0.0]), force)
+    assert force[5] == pytest.approx(-7.0 * turned)

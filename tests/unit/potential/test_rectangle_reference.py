@@ -9,6 +9,7 @@ from moyai.core.errors import InputError
 from moyai.potential.extrapolation import extrapolated_limit
 from moyai.potential.rectangle import solve_rectangle
 from moyai.potential.rectangle_basis import GapBasis
+from moyai.potential.rectangle_outer import log_matrix
 from moyai.sea.dispersion import evanescent_wave_numbers, wave_number
 from moyai.sea.water import Water
 
@@ -188,3 +189,17 @@ def test_bad_input_is_named(arguments, options, path):
     with pytest.raises(InputError) as caught:
         solve_rectangle(*arguments, centre=(0.0, 0.0), **options)
     assert caught.value.fault.path == path
+
+
+def test_the_logarithmic_kernel_is_the_integral_over_its_transforms():
+    """-ln|y - y'| - ln|y + y'| is twice the integral of cos(k y) cos(k y') / k, but for a constant of the lowest."""
+    basis = GapBasis(3)
+    node, weight = np.polynomial.legendre.leggauss(16)
+    start = np.concatenate([[0.0], np.geomspace(1e-3, 1.0, 20)[:-1], np.arange(1.0, 4000.0)])
+    half = 0.5 * np.diff(np.append(start, 4000.0))
+    k = (start[:, None] + half[:, None] * (1.0 + node)).ravel()
+    transforms = basis.cosine_transform(k)
+    found = 2.0 / np.pi * (transforms * (half[:, None] * weight).ravel() / k) @ transforms.T
+    # the integrals of two functions that do not vanish at k = 0 have none
+    settled = (basis.degree[:, None] > 0) | (basis.degree[None, :] > 0)
+    assert np.allclose(log_matrix(basis, 1.0)[settled], found[settled], atol=2e-4)

@@ -11,9 +11,11 @@ from moyai.design.long_term import YEAR
 from moyai.report.html import render_html
 from moyai.study.assess import assess
 from moyai.study.execute import run_study
+from moyai.study.extremes_over_seeds import _of_maxima
 from moyai.study.plan import load_study
 from moyai.study.query import StudyTable
 from moyai.study.report.page import compose
+from moyai.study.schema import ExtremesOfSeeds
 
 SEEDS = "- seeds: {path: 'waves[storm].seed', count: 12}"
 HEIGHTS = "- grid: {'waves[storm].significant_height': [0.5 m, 1 m]}\n"
@@ -97,6 +99,16 @@ def test_longer_times_ask_for_more_peaks_of_the_same_law(tmp_path):
     )
     found = result.tree["assessment/extremes 1"]["design_value"].values[0]
     assert found == pytest.approx(1e5 + 2e4 * math.log(1490 / -math.log(0.9)) ** (1 / 1.6), rel=0.06)
+
+
+def test_the_most_probable_maximum_of_longer_times_is_the_mode_of_the_largest_of_so_many():
+    drawn = np.random.default_rng(6).gumbel(300.0, 40.0, size=60)
+    wanted = ExtremesOfSeeds(response="SWL/time/storm/tension", over="seed", family="gumbel", times=20.0)
+    found = _of_maxima(drawn, wanted)
+    level = np.linspace(found.location, found.location + 10.0 * found.scale, 100_001)
+    below = np.exp(-np.exp(-(level - found.location) / found.scale)) ** 20
+    mode = level[np.argmax(np.gradient(below, level))]
+    assert found.most_probable_maximum == pytest.approx(mode, rel=1e-3)
 
 
 @pytest.mark.parametrize(
