@@ -70,15 +70,15 @@ def travelling_surface(
     place = (wanted - times[0]) * (length / (closed.size * step))
     before = np.floor(place).astype(np.int64)
     share = place - before
-    # numpy's transform runs with exp(+i omega t); the convention of the package is its conjugate
-    along = np.exp(-1j * np.outer(places, k))
-    there = np.where(
-        places[:, None] < 0.0, along + np.conj(reflected) * np.conj(along), np.conj(transmitted) * along
-    )  # fmt: skip
-    carried = np.fft.irfft(spectrum * there, n=length, axis=1) * (length / closed.size)
-    # the record repeats
-    first, second = carried[:, before % length], carried[:, (before + 1) % length]
-    return np.asarray(((1.0 - share) * first + share * second).T + mean)
+    out = np.empty((wanted.size, places.size))
+    for column, x in enumerate(places):
+        # numpy's transform runs with exp(+i omega t); the convention of the package is its conjugate
+        along = np.exp(-1j * x * k)
+        there = along + np.conj(reflected * along) if x < 0.0 else np.conj(transmitted) * along
+        carried = np.fft.irfft(spectrum * there, n=length) * (length / closed.size)
+        # the record repeats
+        out[:, column] = (1.0 - share) * carried[before % length] + share * carried[(before + 1) % length] + mean
+    return out
 
 
 def _coefficients(

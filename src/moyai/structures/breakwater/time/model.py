@@ -53,13 +53,14 @@ class TimeRun:
 
         run = self.simulation
         every = max(1, math.ceil(len(run.time) / MOST_ROWS))
+        # copies: rows of several seas are views of one array, which results would keep
         data = xr.Dataset(
             {
-                "position": (("time", "dof"), run.position[::every]),
-                "tension": (("time", "line"), run.tension[::every]),
-                "surface_elevation": ("time", run.elevation[::every]),
+                "position": (("time", "dof"), run.position[::every].copy()),
+                "tension": (("time", "line"), run.tension[::every].copy()),
+                "surface_elevation": ("time", run.elevation[::every].copy()),
             },
-            coords={"time": run.time[::every], "dof": list(MODES), "line": [line.name for line in unit.lines]},
+            coords={"time": run.time[::every].copy(), "dof": list(MODES), "line": [line.name for line in unit.lines]},
             attrs={**self.attributes, "time_step": run.time_step, "status": run.status, "message": run.message},
         )
         if self.lines is not None:
