@@ -71,10 +71,10 @@ def travelling_surface(
     before = np.floor(place).astype(np.int64)
     share = place - before
     out = np.empty((wanted.size, places.size))
-    for column, x in enumerate(places):
+    for column, at in enumerate(places):
         # numpy's transform runs with exp(+i omega t); the convention of the package is its conjugate
-        along = np.exp(-1j * x * k)
-        there = along + np.conj(reflected * along) if x < 0.0 else np.conj(transmitted) * along
+        along = np.exp(-1j * at * k)
+        there = along + np.conj(reflected * along) if at < 0.0 else np.conj(transmitted) * along
         carried = np.fft.irfft(spectrum * there, n=length) * (length / closed.size)
         # the record repeats
         out[:, column] = (1.0 - share) * carried[before % length] + share * carried[(before + 1) % length] + mean
