@@ -17,6 +17,8 @@ from moyai.study.axes import StudyBase
 from moyai.study.lost_lines import lines_lost
 from moyai.study.plan import case_at, load_study
 from moyai.study.scatter import read_scatter
+from moyai.study.schema import Distribution
+from moyai.study.variations import _draw
 
 
 def faults(tmp_path, variations, **further):
@@ -254,6 +256,14 @@ def test_samples_follow_their_distributions_and_their_seed(tmp_path, method):
     assert abs(period.mean() - 5.0) < 5e-2 and abs(period.std() - 0.5) < 6e-2
     # ln of a lognormal value has the mean ln m - ln(1 + (s / m)^2) / 2
     assert abs(np.log(period).mean() - (np.log(5.0) - 0.5 * np.log1p(0.01))) < 3e-3
+
+
+def test_drawn_values_have_the_mean_and_deviation_that_are_given():
+    quantile = (np.arange(20_000) + 0.5) / 20_000
+    for kind in ("normal", "lognormal"):
+        drawn = [float(item.split()[0]) for item in _draw(Distribution(**{kind: ["5 s", "0.5 s"]}), quantile, "period")]
+        assert np.mean(drawn) == pytest.approx(5.0, rel=1e-4) and np.std(drawn) == pytest.approx(0.5, rel=2e-3)
+    assert np.log(drawn).std() == pytest.approx(math.sqrt(math.log(1.01)), rel=2e-3)
 
 
 def test_faults_of_cases_are_told_once_with_the_first_case_that_shows_them(tmp_path):

@@ -11,9 +11,7 @@ pytest.importorskip("capytaine", reason="Capytaine is not installed")
 
 from moyai.core.progress import silent
 from moyai.flexible import BarType
-from moyai.mooring import Line, LineSystem, LineType, Segment, SpringLine
-from moyai.mooring.space_kernel import space_line_force
-from moyai.mooring.table import compile_lines
+from moyai.mooring import LineType, Segment, SpringLine
 from moyai.sea.components import WaveComponents
 from moyai.sea.environment import Environment
 from moyai.sea.states import RegularSea
@@ -29,7 +27,6 @@ from moyai.structures.units.model import Connector, Curve, UnitLine, UnitSetting
 from moyai.structures.units.response import RowModel, respond
 from moyai.structures.units.seas import regular_answer
 from moyai.structures.units.time import damping as damping_in_time
-from moyai.structures.units.time import model as model_in_time
 from moyai.structures.units.time import seas as seas_in_time
 from moyai.structures.units.time.analysis import SeaInTime, sea_in_time
 from moyai.structures.units.time.damping import curves_bear, with_ends_in_time
@@ -427,57 +424,6 @@ def test_a_chain_pulls_only_and_its_dashpot_only_when_tight(elongation, rate, si
     assert joint_force(elongation, rate, x, f, 3.0, side)[0] == pytest.approx(expected)
 
 
-def test_compiled_lines_in_space_are_the_lines():
-    generator = np.random.default_rng(8)
-    chain = LineType("chain", submerged_weight=900.0, axial_stiffness=3e7)
-    rope = LineType("rope", submerged_weight=20.0, axial_stiffness=5e6)
-    lines = (
-        Line("one", (-50.0, 12.0, -10.0), (-5.0, 8.0, -1.0), (Segment(chain, 48.0),), count=2),
-        Line("two", (30.0, 45.0, -10.0), (5.0, 9.0, 0.5), (Segment(chain, 40.0), Segment(rope, 15.0))),
-        SpringLine("three", (20.0, -3.0, 2.0), (4.0, -9.0, 1.0), 2e4, 1e3),
-    )
-    system = LineSystem(lines, 10.0)
-    packed = compile_lines(system)
-    body, last = np.array([1, 1, 1]), np.zeros(3)
-    for _ in range(20):
-        position = np.zeros(12)
-        position[6:] = generator.normal(size=6) * np.array([1.0, 1.0, 0.5, 0.05, 0.1, 0.1])
-        force, tension = np.zeros(12), np.zeros(3)
-        space_line_force(position, body, *packed.arguments, last, force, tension)
-        exact = system.forces(position[6:])
-        assert np.all(force[:6] == 0.0)
-        assert np.allclose(force[6:], exact, rtol=1e-6, atol=1e-6 * np.abs(exact).max())
-        assert np.allclose(tension, system.tensions(position[6:]), rtol=1e-6)
-
-
-def test_tables_of_lines_in_space_hold_their_tolerance_and_beyond_them_lines_are_exact():
-    generator = np.random.default_rng(9)
-    chain = LineType("chain", submerged_weight=900.0, axial_stiffness=3e7)
-    ends = ((-50.0, 12.0, -10.0), (-5.0, 8.0, -1.0)), ((50.0, -14.0, -10.0), (5.0, -8.0, -1.0))
-    lines = (
-        *(Line(f"chain {n}", *end, (Segment(chain, 48.0),)) for n, end in enumerate(ends)),
-        SpringLine("spring", (20.0, -3.0, 2.0), (4.0, -9.0, 1.0), 2e4, 1e3),
-    )
-    system = LineSystem(lines, 10.0)
-    reach = np.array([[[43.0, 46.0], [8.2, 9.8]], [[42.5, 46.0], [8.2, 9.8]], [[0.0, 0.0], [0.0, 0.0]]])
-    packed = compile_lines(system, tolerance=1e-4, reach=reach)
-    # lines that are alike share a table
-    assert packed.tables[0] is packed.tables[1] is not None and packed.tables[2] is None
-    assert packed.nodes.size < 1.5 * packed.tables[0].nodes.size
-    body, last, within = np.zeros(3, dtype=np.int64), np.zeros(3), []
-    for width in (0.3, 2.0):
-        for _ in range(100):
-            position = width * generator.normal(size=6) * np.array([1.0, 1.0, 0.5, 0.03, 0.05, 0.05])
-            force, tension = np.zeros(6), np.zeros(3)
-            space_line_force(position, body, *packed.arguments, last, force, tension)
-            exact, pulls = system.forces(position), system.tensions(position)
-            assert np.all(np.abs(tension - pulls) <= 1.5e-4 * np.abs(pulls))
-            assert np.all(np.abs(force[:3] - exact[:3]) <= 1.5e-4 * np.abs(pulls).sum())
-            within.append(np.max(np.abs(tension - pulls) / np.abs(pulls)) > 1e-9)
-    # both ways were taken
-    assert 0 < sum(within) < 200
-
-
 CHAIN = LineType("chain", submerged_weight=280.0, axial_stiffness=3e7, breaking_load=1e6)
 BAR = BarType(
     "chain", 32.0, 3e7, 0.04, drag_normal=1.2, drag_tangential=0.3, added_mass_normal=1.0,
@@ -491,22 +437,6 @@ def moored():
         for name, x in (("west", -5.0), ("east", 5.0))
     ]
     return at_rest(HINGE, lines=lines)
-
-
-def test_a_run_on_tables_is_that_on_exact_lines(monkeypatch, memory):
-    at = moored()
-    step = 0.1
-    time = step * np.arange(2500)
-    load = np.zeros((len(time), at.size))
-    load[:, [0, 6]] = 1.5e6 * np.sin(1.1 * time)[:, None] * np.minimum(time / 20.0, 1.0)[:, None]
-    runs = {}
-    for begin in (300, len(time)):
-        monkeypatch.setattr(model_in_time, "STEPS_BEFORE_TABLES", begin)
-        runs[begin] = RowInTime(at, memory, np.zeros(at.size), 1.1).run(load, step)
-    tables, exact = runs.values()
-    assert exact.tension.max() > 3.0 * exact.tension.mean()
-    assert 0.0 < np.abs(tables.tension - exact.tension).max() < 1e-3 * exact.tension.max()
-    assert np.abs(tables.position - exact.position).max() < 1e-4 * np.abs(exact.position).max()
 
 
 def swaying(at, period, amplitude):
