@@ -87,7 +87,7 @@ def laws_dataset(
                 "normal_drag_coefficient": ("law", np.array(coefficients)),
                 "law_line_tension_maximum": ("law", np.array(peaks).max(axis=1)),
                 "law_line_tension": (("law", "line"), np.array(peaks)),
-                "law_offset": ("law", np.array(offsets)),
+                "law_largest_offset": ("law", np.array(offsets)),
             },
             coords={"law": [law.name for law in laws], "line": [line.name for line in lines]},
             attrs={"wave": wave.name, "speed": speed, "valid": choice.named, "reynolds": choice.reynolds},
