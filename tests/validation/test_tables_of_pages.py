@@ -32,7 +32,7 @@ from moyai.sea.water import Water
 from moyai.structures.cage.rigid.literal import literal_pack
 from moyai.structures.cage.rigid.pack import pack
 from moyai.structures.cage.rigid.setup import resolve
-from moyai.structures.cage.rigid.statics import rest_with_lines
+from moyai.structures.cage.rigid.statics import equilibrium_with_lines
 from moyai.structures.cage.rigid.time import march
 from moyai.structures.cage.rigid.waves import wave_of
 from moyai.structures.curtain.impact.cable import Impact, peak_by_energy
@@ -356,7 +356,7 @@ def printed_equations():
     lines = resolve(cage, tuple(plans), water, viscosity)
     wave = wave_of("linear", 0.03, 1.1, 0.0, water, 0.0, 20)
     sound = pack(cage, lines, water, viscosity, waves=wave.components, ramp=5.5)
-    start = np.concatenate([rest_with_lines(cage, lines, water, viscosity).place, np.zeros(3)])
+    start = np.concatenate([equilibrium_with_lines(cage, lines, water, viscosity).place, np.zeros(3)])
 
     def of(*errors):
         packed = literal_pack(sound, cage, water, errors)

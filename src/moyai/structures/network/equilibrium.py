@@ -230,7 +230,7 @@ def stiffness_at_driven(assembly: Assembly, rest: Equilibrium, flow: Flow, step:
     Raises
     ------
     ConvergenceError
-        When a displaced network finds no rest.
+        When a displaced network finds no equilibrium.
     """
     network, names = assembly.network, driven_names(assembly)
     if not names:
