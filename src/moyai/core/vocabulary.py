@@ -188,11 +188,15 @@ FORMER: Mapping[str, str] = {
     **dict.fromkeys(("plateau_tension", "sum_plateau_tension"), BOTH_CABLES_PLATEAU_TENSION.name),
     **dict.fromkeys(("impact_tension", "sum_impact_tension"), BOTH_CABLES_IMPACT_TENSION.name),
     "utilisation": FACTORED_UTILISATION.name,
+    "utilisation_high": f"{FACTORED_UTILISATION.name}_high",
     "limit_utilisation": "limit_factored_utilisation",
     "component_utilisation": "component_factored_utilisation",
 }
-#: What stands before or after the name of a concept where a result holds the worst, an end of its band and the like.
-_FORMER = re.compile(f"(worst_|steady_|cause_|direction_|)({'|'.join(FORMER)})(_low|_high|_of_realisation|)")
+#: Former names that had more before or after them where a result holds the worst, an end of a band and the like.
+_FORMER = re.compile(
+    f"(worst_|steady_|cause_|direction_|)({'|'.join(name for name in FORMER if re.search('anchor_|maximum_', name))})"
+    "(_low|_high|_of_realisation|)"
+)
 
 
 def former(name: str) -> str:

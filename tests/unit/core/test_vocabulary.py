@@ -82,7 +82,8 @@ def test_a_name_of_earlier_versions_is_answered_by_what_it_is_called(tmp_path: P
     assert not {name for called in FORMER.values() for name in called.split(" or ")} - declared
     assert former("steady_anchor_force_high").endswith("is called steady_anchor_horizontal_tension_high")
     assert former("worst_anchor_uplift").endswith("is called worst_anchor_vertical_tension")
-    assert not former("anchor_tension_low")
+    assert former("maximum_excursion_of_realisation").endswith("is called largest_offset_by_dof_of_realisation")
+    assert not any(map(former, ("anchor_tension_low", "steady_offset", "worst_utilisation")))
     with pytest.raises(InputError) as caught:
         find_response(plain(), "SWL/frequency/swell/maximum_tension")
     assert "'maximum_tension' of earlier versions is called line_tension_maximum" in caught.value.fault.remedy
