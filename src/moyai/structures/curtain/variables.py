@@ -282,7 +282,7 @@ VARIABLES: dict[str, tuple[str, str]] = {
     "speed_limit_low": ("m/s", "largest surface speed without waves at the upper end of drag or impact"),
     "speed_limit_high": ("m/s", "largest surface speed without waves at the lower end of drag or impact"),
     "speed_limit_ratio": ("1", "largest surface speed without waves over the current of the case"),
-    "limit_factored_utilisation": ("1", "largest of all components: load times safety factor over strength"),
+    "limit_factored_utilisation": ("1", "largest load times safety factor over strength of all components"),
     "component_factored_utilisation": ("1", "load times safety factor over strength of each component"),
     "speed_limit": ("m/s", "largest surface speed without waves"),
     "steady_load": ("", "steady load"),
