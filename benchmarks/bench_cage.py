@@ -21,7 +21,7 @@ from moyai.sea.water import Water
 from moyai.structures.cage.flexible.build import build_cage
 from moyai.structures.cage.flexible.collar import Collar, Pipe
 from moyai.structures.cage.flexible.design import CageDesign, CageNet
-from moyai.structures.cage.flexible.equilibrium import solve_rest
+from moyai.structures.cage.flexible.equilibrium import solve_cage_equilibrium
 from moyai.structures.cage.flexible.grid_mooring import Buoy, GridMooring
 from moyai.structures.cage.flexible.model import CageMesh, FlexibleCage
 from moyai.structures.cage.flexible.problem import FlexibleSettings
@@ -67,14 +67,14 @@ def main() -> None:
         model = cage(CageMesh(around, down, bottom, 8.0))
         built = build_cage(model)
         begin = time.process_time()
-        rest = solve_rest(model, built, current)
+        rest = solve_cage_equilibrium(model, built, current)
         first = time.process_time() - begin
         if number == 0:
             run_cage(model, rest, replace(wave, duration=1.0), settings)
             print(
                 json.dumps({"what": "first use, compilation and all", "cpu_s": round(time.process_time() - begin, 1)})
             )
-            first = cpu(lambda m=model, b=built: solve_rest(m, b, current), 1)
+            first = cpu(lambda m=model, b=built: solve_cage_equilibrium(m, b, current), 1)
         run = run_cage(model, rest, wave, settings)
         taken = cpu(lambda m=model, r=rest: run_cage(m, r, wave, settings), 3 if number < 3 else 1)
         nodes = len(built.network.nodes)

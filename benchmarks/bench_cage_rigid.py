@@ -19,7 +19,7 @@ from moyai.sea.states import IrregularSea
 from moyai.structures.cage.rigid.matsubara import VISCOSITY, WATER, model_cage, taut_lines
 from moyai.structures.cage.rigid.model import RigidCageProblem, RigidCageSettings
 from moyai.structures.cage.rigid.pack import pack
-from moyai.structures.cage.rigid.statics import rest_with_lines
+from moyai.structures.cage.rigid.statics import equilibrium_with_lines
 from moyai.structures.cage.rigid.time import march, march_fixed
 from moyai.structures.cage.rigid.waves import regular_wave, waves_of
 
@@ -37,7 +37,7 @@ def regular(stiffness: float, tolerance: float) -> dict[str, object]:
     """Time 1000 periods adaptively and 50 with fixed steps; compare their numbers over the first 50."""
     cage = model_cage()
     lines = taut_lines(cage, stiffness=stiffness)
-    start = np.concatenate([rest_with_lines(cage, lines, WATER, VISCOSITY).place, np.zeros(3)])
+    start = np.concatenate([equilibrium_with_lines(cage, lines, WATER, VISCOSITY).place, np.zeros(3)])
     wave = regular_wave(HEIGHT, PERIOD, 0.0, WATER, 0.0, 1000)
     packed = pack(cage, lines, WATER, VISCOSITY, waves=wave.components, ramp=5.0 * PERIOD)
     options = {"spacing": PERIOD / 50.0, "size": 0.2, "period": PERIOD, "tolerance": tolerance}
@@ -73,7 +73,7 @@ def irregular(periods: int) -> dict[str, object]:
     (wave,) = waves_of(problem, sea, WATER)
     packed = pack(cage, lines, WATER, VISCOSITY, waves=wave.components, ramp=6.0)
     direct = packed._replace(summed=np.zeros((16, 10, 0)))
-    start = np.concatenate([rest_with_lines(cage, lines, WATER, VISCOSITY).place, np.zeros(3)])
+    start = np.concatenate([equilibrium_with_lines(cage, lines, WATER, VISCOSITY).place, np.zeros(3)])
     options = {"spacing": 0.024, "size": 0.2, "period": 1.2, "tolerance": 1e-6}
     march(packed, start, duration=1.2, **options)
     begin = time.process_time()
@@ -102,7 +102,7 @@ def patches() -> dict[str, object]:
     for count in (2, 3, 5, 8, 16):
         cage = model_cage(patches=count)
         lines = taut_lines(cage)
-        start = np.concatenate([rest_with_lines(cage, lines, WATER, VISCOSITY).place, np.zeros(3)])
+        start = np.concatenate([equilibrium_with_lines(cage, lines, WATER, VISCOSITY).place, np.zeros(3)])
         wave = regular_wave(HEIGHT, PERIOD, 0.0, WATER, 0.0, 24)
         packed = pack(cage, lines, WATER, VISCOSITY, waves=wave.components, ramp=5.0 * PERIOD)
         run = march(packed, start, duration=26.4, spacing=0.022, size=0.2, period=PERIOD, tolerance=1e-6)

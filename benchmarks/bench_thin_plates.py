@@ -96,7 +96,7 @@ def main() -> int:
     for accuracy in (1e-3, 1e-4, 1e-6):
         found = solved(BARRIER, accuracy)
         mass = np.abs(found.added_mass[:, 0, 0] - reference.added_mass).max() / reference.added_mass.max()
-        wave = np.abs(found.normal.reflection - reference.reflection).max()
+        wave = np.abs(found.normal.reflection_coefficient - reference.reflection_coefficient).max()
         spent = cpu(lambda accuracy=accuracy: solved(BARRIER, accuracy), options.repeat) / len(OMEGA)
         own = own or spent
         print(

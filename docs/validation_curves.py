@@ -107,7 +107,10 @@ def barrier(records: Sequence[dict[str, Any]]) -> tuple[str, str]:
     at = np.geomspace(0.07, 4.0, 12)
     section, sway = plate_section(Plate((0.0, 0.0), (0.0, -1.0))), Modes(("sway",), (Rigid("sway"),))
     waves = solve(section, Water(math.inf, 1.0, 9.81), list(np.sqrt(9.81 * at)), modes=sway)
-    found = [("this build", at, np.abs(values)) for values in (waves.normal.reflection, waves.normal.transmission)]
+    found = [
+        ("this build", at, np.abs(values))
+        for values in (waves.normal.reflection_coefficient, waves.normal.transmission_coefficient)
+    ]
     svg = chart(
         [("reflection, Ursell", x, math.pi * i1(x) / size), ("transmission, Ursell", x, k1(x) / size)],
         found,

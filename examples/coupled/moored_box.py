@@ -61,7 +61,7 @@ def box(model: str, points: dict[str, tuple[float, float, float]]) -> RigidBody:
     face = 0.2 * DRAUGHT
     if model == "coefficients":
         dataset = read_coefficients("capytaine", COEFFICIENTS)
-        loads = WaveLoads.from_dataset(dataset, displaced_volume=3.148e-3, rest=(0.0, 0.0, -DRAUGHT))
+        loads = WaveLoads.from_dataset(dataset, displaced_volume=3.148e-3, equilibrium_position=(0.0, 0.0, -DRAUGHT))
         drag = 500.0 * np.array([face, face, 0.04, 0.0, 0.0, 0.0])
         return RigidBody(
             "box", 3.148, (0.015, 0.015, 0.021), (0, 0, CENTRE), (0, 0, -DRAUGHT), points=points, loads=loads,

@@ -112,13 +112,13 @@ def waves() -> None:
         whole = found["/SWL/dynamic/swell"].to_dataset()
         head = case[: case.index("analyses")]
         impact = _run(f"{head}analyses: [impact]\nsettings:\n  impact: {{start_speed: {speed:.4f} m/s}}\n")
-        named = impact["/SWL/impact"].to_dataset()["impact_tension"].to_series()
-        tension = whole["both_tension"]
+        named = impact["/SWL/impact"].to_dataset()["both_cables_impact_tension"].to_series()
+        tension = whole["both_cables_tension_peak_since_row"]
         late = tension.where(whole["time"] >= whole.attrs["counted_from"])
         print(
             f"ballast {ballast} kg/m{', EA 100 kN each' if changes else ''}: speed when taut {speed:.3f} m/s; span "
             f"{float(late.max()):.0f} N after five periods, {float(tension.max()):.0f} N in all; one degree of freedom "
-            f"{float(np.max(swell['maximum_tension'])):.0f} N; "
+            f"{float(np.max(swell['both_cables_tension_maximum'])):.0f} N; "
             + ", ".join(f"{name} {named[name]:.0f} N" for name in ("A", "A2", "AB") if name in named)
         )
 

@@ -18,7 +18,9 @@ def analyse():
     names = find_layout(path, probe).headings[1:]
     columns = tuple(ColumnSource(place, name, "m") for place, name in enumerate(names, 2))
     record = read_record(LoggerSource("codes", (path,), columns, TimeSource((1,))))
-    return {name: fit_decay_record(record.time, record[name], start=0.0, rest=0.0, smallest=0.03) for name in names}
+    return {
+        name: fit_decay_record(record.time, record[name], start=0.0, equilibrium=0.0, smallest=0.03) for name in names
+    }
 
 
 def main():

@@ -40,7 +40,7 @@ def test_rest_and_frequency_domain_follow_hand_calculation(design, tmp_path):
     pull, grounded = catenary_pretension(
         weight, design.line, design.depth - design.draught, design.anchor - 0.5 * design.beam
     )
-    assert float(statics.horizontal_tension[0]) == pytest.approx(pull, rel=0.03)
+    assert float(statics.anchor_horizontal_tension[0]) == pytest.approx(pull, rel=0.03)
     assert float(statics.grounded_length[0]) == pytest.approx(grounded, abs=0.05 * design.line)
     # Mean drift after Maruo: rho g H^2/32 (1 + 2kh/sinh 2kh)(1 + K_R^2 - K_T^2), both coefficients weighted by energy;
     # the factor of depth is taken at the peak alone, and falls towards the short waves that drift most: eight per cent
@@ -128,10 +128,10 @@ def test_first_page_in_all_defaults(design, tmp_path):
     # Five maxima of four minutes each: a quasi-static peak beyond five times the mean is never the headline
     if not tension.model.endswith("in motion"):
         assert tension.value <= 5.0 * float(time.line_tension_mean.max())
-    anchor = headline(result, "anchor_horizontal_load").value
+    anchor = headline(result, "anchor_horizontal_tension").value
     assert anchor <= tension.value
     # 1.5 of drag anchors while a line lies on the bed, 1.6 of anchors that hold by weight where it is lifted
-    factor = 1.5 if headline(result, "anchor_uplift").text == "none" else 1.6
+    factor = 1.5 if headline(result, "anchor_vertical_tension").text == "none" else 1.6
     assert headline(result, "anchor_capacity_required").value == pytest.approx(factor * anchor)
 
 

@@ -249,7 +249,7 @@ def test_the_band_in_the_sea_is_what_runs_under_the_extreme_laws_give(text, monk
     soft = None if text == STILL else in_the_sea_alone(text.replace("law: loland", "law: balash"), monkeypatch)
     stiff = in_the_sea_alone(text.replace("law: loland", "law: milne"), monkeypatch)
     # 8 %: the ratio is that of a coarser mesh
-    for name in ("anchor_load", "offset", "collar_stress", "line_tension"):
+    for name in ("anchor_tension", "offset", "collar_stress", "line_tension"):
         found = [
             item for item in governing.headlines if item.name == name and item.model.startswith("run through time")
         ]
@@ -276,7 +276,15 @@ def test_at_rest_the_mesh_is_in_lines_anchors_offset_and_stress_too():
     )
     mesh = "{around: 32, down: 6, bottom: 4}"
     coarse, fine = (result_of(text.replace(mesh, given)) for given in ("{around: 24, down: 5, bottom: 3}", mesh))
-    for name in ("line_tension", "line_utilisation", "anchor_load", "offset", "collar_stress", "volume_left", "drag"):
+    for name in (
+        "line_tension",
+        "line_utilisation",
+        "anchor_tension",
+        "offset",
+        "collar_stress",
+        "volume_left",
+        "drag",
+    ):
         band = headline(coarse, name).band
         assert "mesh ±" in band.of, name
         assert band.low <= headline(fine, name).value <= band.high, name
@@ -316,7 +324,7 @@ settings: {rigid: {periods: 12, settled_periods: 4}}
 def test_a_rigid_cage_is_judged_on_offset_and_anchors():
     """Criteria that nothing gave a number for; waves and current from the other side give the same by mirror."""
     found = result_of(RIGID)
-    offset, pull, tension = (headline(found, name) for name in ("offset", "anchor_load", "line_tension"))
+    offset, pull, tension = (headline(found, name) for name in ("offset", "anchor_tension", "line_tension"))
     series = found.tree["SWL/time/storm/wave 1"].to_dataset()
     late = series.isel(time=series["time"].values >= float(series.attrs["ramp"]))
     places = found.tree["SWL/statics"].to_dataset()["rest_x"]
@@ -328,7 +336,7 @@ def test_a_rigid_cage_is_judged_on_offset_and_anchors():
     judged = {item.criterion.name: item for item in found.verdict.judgements}
     assert judged["greatest_offset"].outcome == judged["greatest_anchor_load"].outcome == "holds"
     turned = result_of(RIGID.replace("heading_deg: 0", "heading_deg: 180"))
-    for name in ("offset", "anchor_load"):
+    for name in ("offset", "anchor_tension"):
         assert headline(turned, name).value == pytest.approx(headline(found, name).value, rel=1e-6)
 
 

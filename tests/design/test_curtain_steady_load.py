@@ -103,7 +103,7 @@ def test_cables_and_anchors_are_those_by_hand(statics, name):
     found = statics(name).tree["SWL/statics"]
     tension, anchor = plan_by_hand(float(found["steady_line_load"]))
     assert 0.99 * tension[0] <= float(found["steady_cable_tension"]) <= 1.01 * tension[1]
-    assert 0.99 * anchor[0] <= float(found["steady_anchor_force"]) <= 1.01 * anchor[1]
+    assert 0.99 * anchor[0] <= float(found["steady_anchor_horizontal_tension"]) <= 1.01 * anchor[1]
 
 
 @pytest.mark.parametrize("name", NAMES)
@@ -127,7 +127,7 @@ def test_one_load_everywhere(statics, name):
     assert float(found["section_load"].sel(drag_case="given")) == pytest.approx(value, rel=1e-12)
     assert float(laws["line_load"]) == pytest.approx(value, rel=1e-12)
     loads = result.tree["SWL/loads"]
-    for component, quantity in (("anchor line", "anchor_line_tension"), ("anchor", "anchor_force")):
+    for component, quantity in (("anchor line", "anchor_tension"), ("anchor", "anchor_horizontal_tension")):
         row = loads.sel(component=component)
         assert float(row["steady_load"]) == float(found[f"steady_{quantity}"])
         assert float(row["steady_high"]) == float(found[f"steady_{quantity}_high"])
@@ -167,4 +167,4 @@ def test_toe_speed_is_the_ratio_times_that_of_the_current(statics, name):
 
 @pytest.mark.parametrize("name", NAMES)
 def test_direction_along_the_normal_is_the_most_unfavourable(statics, name):
-    assert np.all(np.diff(statics(name).tree["SWL/statics"]["direction_anchor_force"].values) < 0.0)
+    assert np.all(np.diff(statics(name).tree["SWL/statics"]["direction_anchor_horizontal_tension"].values) < 0.0)

@@ -20,7 +20,7 @@ from moyai.structures.cage.rigid.literal import FAULTS, literal_pack
 from moyai.structures.cage.rigid.pack import pack
 from moyai.structures.cage.rigid.runs import run_wave
 from moyai.structures.cage.rigid.setup import resolve
-from moyai.structures.cage.rigid.statics import free_floating, reserve_buoyancy, rest_with_lines
+from moyai.structures.cage.rigid.statics import equilibrium_with_lines, free_floating, reserve_buoyancy
 from moyai.structures.cage.rigid.time import march
 from moyai.structures.cage.rigid.waves import wave_of
 
@@ -69,7 +69,7 @@ def numbers(kind, period, height, reach=0.3, stiffness=2000.0, pull=0.011, drag=
         case = replace(case, cage=cage)
     water, viscosity = case.environment.water, case.kinematic_viscosity
     moored = () if kind == "slack" else lines(kind, reach, stiffness, pull)
-    rest = rest_with_lines(cage, moored, water, viscosity) if moored else free_floating(cage, water, viscosity)
+    rest = equilibrium_with_lines(cage, moored, water, viscosity) if moored else free_floating(cage, water, viscosity)
     settings = replace(case.settings, tolerance=1e-5, settled_periods=10)
     wave = wave_of("linear", height, period, 0.0, water, 0.0, 30)
     found = run_wave(replace(case, settings=settings), moored, rest, water, wave).numbers
@@ -199,7 +199,7 @@ def test_printed_equations_fail_as_told(fault):
     cage, water = case.cage, case.environment.water
     kind = "outward" if fault == "line_signs" else "crossed"
     moored = lines(kind, 0.3 if kind == "crossed" else 0.475, 2000.0)
-    rest = rest_with_lines(cage, moored, water, case.kinematic_viscosity)
+    rest = equilibrium_with_lines(cage, moored, water, case.kinematic_viscosity)
     wave = wave_of("linear", 0.03, 1.1, 0.0, water, 0.0, 20)
     sound = pack(cage, moored, water, case.kinematic_viscosity, waves=wave.components, ramp=5.5)
     chosen = tuple(FAULTS) if fault == "all" else (fault,)

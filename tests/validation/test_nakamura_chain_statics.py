@@ -64,7 +64,7 @@ def test_stiffness_under_drift() -> None:
     hydrostatic = np.diag([0.0, 3675.6, 31.98])
     # the roll restoring is that about the centre of gravity; 2.7 cm higher it changes no printed digit here
     view = nakamura_model()
-    found = view.equilibrium([1.34, 0.0, 0.0], hydrostatic, subtract_rest_force=True)
+    found = view.equilibrium([1.34, 0.0, 0.0], hydrostatic, subtract_equilibrium_force=True)
     assert found.position[0] == pytest.approx(4.5e-3, abs=1e-4)
     stiffness = view.stiffness(found.position, about=(0.0, -0.027))
     assert stiffness[0, 0] == pytest.approx(311.6, rel=2e-3)

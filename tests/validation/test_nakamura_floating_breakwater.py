@@ -108,7 +108,7 @@ def test_statics_and_natural_periods():
     assert 2 * np.pi * np.sqrt((41.6 + added[0]) / mooring[0, 0]) == pytest.approx(2.80, abs=6e-3)
     assert 2 * np.pi * np.sqrt((41.6 + added[1]) / hydrostatic[1, 1]) == pytest.approx(1.015, abs=1.5e-3)
     assert float(data.natural_period.sel(mode="sway")) > 2.80
-    assert float(data.horizontal_tension[0]) == pytest.approx(1.796, abs=6e-4)
+    assert float(data.anchor_horizontal_tension[0]) == pytest.approx(1.796, abs=6e-4)
     assert float(data.fairlead_vertical_tension[0]) == pytest.approx(1.080, abs=6e-4)
     assert float(data.grounded_length[0]) == pytest.approx(1.013, abs=6e-4)
     # 42.34 kg displaced, 41.6 kg weighed, 0.44 kgf of four lines

@@ -112,6 +112,6 @@ analyses: [statics]
     result.write(tmp_path / "results.nc")
     rest = read_result(tmp_path / "results.nc").tree["SWL/statics"].to_dataset()
     exact = solve_catenary(70.0, 30.0, 85.0, 290e6, (72.0 - 1025.0 * 9.17e-3) * 9.81, bed=False)
-    pull = rest["load"].sel(point="top").values[0]
+    pull = rest["point_load"].sel(point="top").values[0]
     assert -pull[0] == pytest.approx(float(exact.horizontal_tension), rel=1e-4)
     assert -pull[2] == pytest.approx(float(exact.vertical_tension_fairlead), rel=3e-3)  # half a bar hangs on the point

@@ -32,7 +32,7 @@ from moyai.sea.water import Water
 from moyai.structures.cage.rigid.literal import literal_pack
 from moyai.structures.cage.rigid.pack import pack
 from moyai.structures.cage.rigid.setup import resolve
-from moyai.structures.cage.rigid.statics import rest_with_lines
+from moyai.structures.cage.rigid.statics import equilibrium_with_lines
 from moyai.structures.cage.rigid.time import march
 from moyai.structures.cage.rigid.waves import wave_of
 from moyai.structures.curtain.impact.cable import Impact, peak_by_energy
@@ -272,7 +272,7 @@ def pontoon():
 def flaring_curtain():
     statics = moyai.run(case_on("answer/curtain_steady_load.md")).tree["SWL/statics"].to_dataset()
     for name, scale in (
-        ("line_load", 1.0), ("span_load", 1e-3), ("cable_tension", 1e-3), ("anchor_line_tension", 1e-3),
+        ("line_load", 1.0), ("span_load", 1e-3), ("cable_tension", 1e-3), ("anchor_tension", 1e-3),
         ("effective_depth", 1.0),
     ):  # fmt: skip
         yield [scale * float(statics[f"steady_{name}{end}"]) for end in ("", "_low", "_high")]
@@ -328,7 +328,7 @@ def strong_current():
     """By the upright plate, whose bounds do not depend on the machine."""
     result = moyai.run(case_on("answer/curtain.md"))
     found = {item.name: item for item in result.headlines}
-    bounds = [found[name].value for name in ("cable_tension", "anchor_load", "anchor_utilisation")]
+    bounds = [found[name].value for name in ("cable_tension", "anchor_tension", "anchor_utilisation")]
     yield from ([1e-3 * bounds[0]], [1e-3 * bounds[1]], [bounds[2]])
     for name, scale in (("steady_load", 1e-3), ("effective_depth", 1.0)):
         yield [scale * value for value in (found[name].value, found[name].band.low, found[name].band.high)]
@@ -356,7 +356,7 @@ def printed_equations():
     lines = resolve(cage, tuple(plans), water, viscosity)
     wave = wave_of("linear", 0.03, 1.1, 0.0, water, 0.0, 20)
     sound = pack(cage, lines, water, viscosity, waves=wave.components, ramp=5.5)
-    start = np.concatenate([rest_with_lines(cage, lines, water, viscosity).place, np.zeros(3)])
+    start = np.concatenate([equilibrium_with_lines(cage, lines, water, viscosity).place, np.zeros(3)])
 
     def of(*errors):
         packed = literal_pack(sound, cage, water, errors)
@@ -439,6 +439,6 @@ def test_the_whole_span_bears_a_quarter_of_the_plate_in_a_strong_current():
     result = moyai.run(case_on("answer/curtain.md").replace("settings.dynamic", {"by_default": True}))
     found = {item.name: item.value for item in result.headlines if item.shown}
     assert found["cable_tension"] == pytest.approx(29e3, rel=0.2)
-    assert found["anchor_load"] == pytest.approx(41e3, rel=0.2)
+    assert found["anchor_tension"] == pytest.approx(41e3, rel=0.2)
     assert found["anchor_utilisation"] == pytest.approx(0.33, rel=0.2)
     assert found["fabric_utilisation"] == pytest.approx(0.12, rel=0.2)

@@ -30,12 +30,12 @@ def test_reflection_and_transmission(seed):
     )
     reflected, transmitted = ursell_barrier(ka)
     turn = np.exp(2j * ka / draught * x)
-    assert np.abs(found.reflection[:, 0] - reflected * turn).max() < 1e-5
-    assert np.abs(found.reflection[:, 1] - reflected / turn).max() < 1e-5
-    assert np.abs(found.transmission - transmitted).max() < 1e-5
+    assert np.abs(found.reflection_coefficient[:, 0] - reflected * turn).max() < 1e-5
+    assert np.abs(found.reflection_coefficient[:, 1] - reflected / turn).max() < 1e-5
+    assert np.abs(found.transmission_coefficient - transmitted[:, None]).max() < 1e-5
 
 
 def test_a_barrier_in_water_of_many_draughts_is_in_deep_water():
     ka = np.array([0.3, 1.0, 3.0])
     found = solve_plate_waves(Plate((0, 0), (0, -1)), Water(40.0, 1025.0, 9.81), np.sqrt(9.81 * ka), accuracy=1e-5)
-    assert np.abs(found.reflection[:, 0] - ursell_barrier(ka)[0]).max() < 1e-3
+    assert np.abs(found.reflection_coefficient[:, 0] - ursell_barrier(ka)[0]).max() < 1e-3

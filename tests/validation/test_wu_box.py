@@ -40,7 +40,9 @@ def coefficients(example):
 
 @pytest.fixture(scope="module")
 def loads(example, coefficients):
-    found = WaveLoads.from_dataset(coefficients, displaced_volume=3.148e-3, rest=(0.0, 0.0, -example.DRAUGHT))
+    found = WaveLoads.from_dataset(
+        coefficients, displaced_volume=3.148e-3, equilibrium_position=(0.0, 0.0, -example.DRAUGHT)
+    )
     # the example fits the memory of the same coefficients each time that it runs
     example.WaveLoads = SimpleNamespace(from_dataset=lambda *_, **__: found)
     return found

@@ -26,8 +26,8 @@ UPLIFT_SOURCE = (
 _PLAIN: dict[str, tuple[str, Sense, str, str]] = {
     "greatest_offset": ("offset", "at most", "m", "offset"),
     "greatest_roll_deg": ("roll", "at most", "rad", "roll"),
-    "greatest_uplift": ("anchor_uplift", "at most", "N", "uplift on the anchors"),
-    "greatest_anchor_load": ("anchor_load", "at most", "N", "load on the anchors"),
+    "greatest_uplift": ("anchor_vertical_tension", "at most", "N", "uplift on the anchors"),
+    "greatest_anchor_load": ("anchor_tension", "at most", "N", "load on the anchors"),
     "least_freeboard": ("freeboard", "at least", "m", "freeboard"),
     "least_metacentric_height": ("metacentric_height", "at least", "m", "metacentric height"),
     "least_toe_clearance": ("toe_clearance", "at least", "m", "toe clearance"),

@@ -20,7 +20,9 @@ def decay(
     ] = "",
     start: Annotated[float | None, typer.Option("--start", help="First instant to use [s].")] = None,
     end: Annotated[float | None, typer.Option("--end", help="Last instant to use [s].")] = None,
-    rest: Annotated[float | None, typer.Option("--rest", help="Position at rest, SI; found when absent.")] = None,
+    equilibrium: Annotated[
+        float | None, typer.Option("--equilibrium", help="Position at rest, SI; found when absent.")
+    ] = None,
     smallest: Annotated[float, typer.Option("--smallest", help="Smallest swing used, over the first.")] = 0.05,
     linear: Annotated[bool, typer.Option("--linear", help="Fit linear damping alone.")] = False,
     decimal: Annotated[str, typer.Option("--decimal", help="Decimal sign of the record.")] = ".",
@@ -42,7 +44,13 @@ def decay(
         )
         record = read_record(source)
         found = fit_decay_record(
-            record.time, record["motion"], start=start, end=end, rest=rest, smallest=smallest, quadratic=not linear
+            record.time,
+            record["motion"],
+            start=start,
+            end=end,
+            equilibrium=equilibrium,
+            smallest=smallest,
+            quadratic=not linear,
         )
         unit_of = record.units[0]
         if as_json:
@@ -54,7 +62,7 @@ def decay(
                     "damping_error": found.damping_error,
                     "quadratic_over_inertia": found.decay.quadratic_over_inertia,
                     "quadratic_error": found.quadratic_error,
-                    "rest": found.rest,
+                    "equilibrium": found.equilibrium,
                     "start": found.start,
                     "end": found.end,
                     "swings": [float(value) for value in found.decay.extremes],
@@ -67,7 +75,7 @@ def decay(
             say(f"damping ratio {found.decay.damping_ratio:.4g} +- {found.damping_error:.2g} (linear part)")
             quadratic, error = found.decay.quadratic_over_inertia, found.quadratic_error
             say(f"quadratic damping over inertia {quadratic:.4g} +- {error:.2g} 1/{unit_of or '1'}")
-            say(f"rest {found.rest:.5g} {unit_of}")
+            say(f"equilibrium {found.equilibrium:.5g} {unit_of}")
             say(f"{found.decay.extremes.size} swings from {found.start:.5g} to {found.end:.5g} s")
             for notice in found.notices:
                 say(f"{notice.severity}: {notice.message}")

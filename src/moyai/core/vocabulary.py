@@ -62,6 +62,34 @@ LINE_TENSION_PEAK_SINCE_ROW = Variable(
     "line_tension_peak_since_row", "N", "highest tension of the line since the row before", ("line",)
 )
 BREAKING_LOAD = Variable("breaking_load", "N", "breaking load of the line", ("line",))
+# of one line at its anchor; the pull of all lines that meet in a point is called point_load
+ANCHOR_TENSION = Variable("anchor_tension", "N", "tension at the anchor")
+ANCHOR_HORIZONTAL_TENSION = Variable("anchor_horizontal_tension", "N", "horizontal tension at the anchor")
+ANCHOR_VERTICAL_TENSION = Variable(
+    "anchor_vertical_tension", "N", "vertical tension at the anchor, upward on the anchor"
+)
+ANCHOR_TENSION_MAXIMUM = Variable("anchor_tension_maximum", "N", "largest tension at the anchor")
+ANCHOR_HORIZONTAL_TENSION_MAXIMUM = Variable(
+    "anchor_horizontal_tension_maximum", "N", "largest horizontal tension at the anchor"
+)
+ANCHOR_VERTICAL_TENSION_MAXIMUM = Variable("anchor_vertical_tension_maximum", "N", "largest uplift at the anchor")
+LARGEST_OFFSET = Variable("largest_offset", "m", "largest horizontal distance of the body from its place at rest")
+CONTACT_COUNT = Variable("contact_count", "1", "times that the slack line comes taut")
+SNAP_COUNT = Variable("snap_count", "1", "contacts whose peak exceeds the threshold of a snap")
+LARGEST_SNAP = Variable("largest_snap", "N", "highest peak of a snap")
+SHORTEST_RISE_TIME = Variable(
+    "shortest_rise_time", "s", "shortest rise of a snap from a tenth to nine tenths of its peak"
+)
+BOTH_CABLES_PEAK_TENSION = Variable("both_cables_peak_tension", "N", "largest sum of the tensions of both cables")
+BOTH_CABLES_PLATEAU_TENSION = Variable(
+    "both_cables_plateau_tension", "N", "sum of the tensions of both cables after the spike, the level of the drag"
+)
+BOTH_CABLES_IMPACT_TENSION = Variable(
+    "both_cables_impact_tension",
+    "N",
+    "largest sum of the tensions of both cables above the level of the drag, which models of the impact alone lack",
+)
+FACTORED_UTILISATION = Variable("factored_utilisation", "1", "load times safety factor over strength")
 
 _QUANTITIES = (
     LINE_TENSION_MAXIMUM,
@@ -69,6 +97,21 @@ _QUANTITIES = (
     LINE_TENSION_MEAN,
     LINE_TENSION_PEAK_SINCE_ROW,
     BREAKING_LOAD,
+    ANCHOR_TENSION,
+    ANCHOR_HORIZONTAL_TENSION,
+    ANCHOR_VERTICAL_TENSION,
+    ANCHOR_TENSION_MAXIMUM,
+    ANCHOR_HORIZONTAL_TENSION_MAXIMUM,
+    ANCHOR_VERTICAL_TENSION_MAXIMUM,
+    LARGEST_OFFSET,
+    CONTACT_COUNT,
+    SNAP_COUNT,
+    LARGEST_SNAP,
+    SHORTEST_RISE_TIME,
+    BOTH_CABLES_PEAK_TENSION,
+    BOTH_CABLES_PLATEAU_TENSION,
+    BOTH_CABLES_IMPACT_TENSION,
+    FACTORED_UTILISATION,
     Variable("time", "s", "time"),
     Variable("wavelength", "m", "wave length L"),
     Variable("wave_number", "1/m", "wave number k"),
@@ -94,21 +137,74 @@ COMMON: Mapping[str, Variable] = {variable.name: variable for variable in (*_QUA
 
 #: Names of earlier versions and what they are called, for users of former names.
 FORMER: Mapping[str, str] = {
-    **dict.fromkeys(
-        ("maximum_tension", "peak_tension", "tension_largest", "tension_maximum"), LINE_TENSION_MAXIMUM.name
-    ),
+    **dict.fromkeys(("tension_largest", "tension_maximum"), LINE_TENSION_MAXIMUM.name),
+    "maximum_tension": f"{LINE_TENSION_MAXIMUM.name} or both_cables_tension_maximum",
+    "peak_tension": f"{LINE_TENSION_MAXIMUM.name} or {BOTH_CABLES_PEAK_TENSION.name}",
     **dict.fromkeys(("minimum_tension", "tension_minimum", "line_least_tension"), LINE_TENSION_MINIMUM.name),
-    **dict.fromkeys(("mean_tension", "tension_mean"), LINE_TENSION_MEAN.name),
+    "tension_mean": LINE_TENSION_MEAN.name,
+    "mean_tension": f"{LINE_TENSION_MEAN.name} or both_cables_tension_mean",
     **dict.fromkeys(("tension_peak", "line_tension"), LINE_TENSION_PEAK_SINCE_ROW.name),
     **dict.fromkeys(("peak", "line_peak"), f"{LINE_TENSION_MAXIMUM.name} or {LINE_TENSION_PEAK_SINCE_ROW.name}"),
     "worst_tension": f"worst_{LINE_TENSION_MAXIMUM.name}",
     "line_breaking_load": BREAKING_LOAD.name,
+    **dict.fromkeys(("anchor_tension_history", "anchor_pull", "anchor_line_tension"), ANCHOR_TENSION.name),
+    **dict.fromkeys(("horizontal_tension", "line_horizontal_tension", "anchor_force"), ANCHOR_HORIZONTAL_TENSION.name),
+    "end_anchor_force": "end_anchor_horizontal_tension",
+    **dict.fromkeys(("anchor_uplift", "line_anchor_vertical_tension"), ANCHOR_VERTICAL_TENSION.name),
+    "maximum_anchor_tension": ANCHOR_TENSION_MAXIMUM.name,
+    "maximum_anchor_horizontal_tension": ANCHOR_HORIZONTAL_TENSION_MAXIMUM.name,
+    **dict.fromkeys(("maximum_anchor_vertical_tension", "line_uplift_lower"), ANCHOR_VERTICAL_TENSION_MAXIMUM.name),
+    "anchor_horizontal_tension_lines_at_rest": "anchor_horizontal_tension_maximum_lines_at_rest",
+    "anchor_vertical_tension_lines_at_rest": "anchor_vertical_tension_maximum_lines_at_rest",
+    "maximum_uplift": "anchor_vertical_tension_maximum_lines_in_motion",
+    "anchor_peak": "anchor_line_tension_maximum",
+    "law_anchor_pull": "law_anchor_tension_maximum",
+    **dict.fromkeys(("tension_lower", "line_tension_lower"), "lower_end_tension"),
+    "tension_upper": "upper_end_tension",
+    "line_tension_maximum_lower": "lower_end_tension_maximum",
+    "load": "point_load",
+    "highest_load": "point_load_peak_since_row",
+    "load_peak": "point_load_maximum",
+    "load_of_realisation": "point_load_maximum_of_realisation",
+    "load_horizontal": "point_horizontal_load_maximum",
+    "load_upwards": "point_upward_load_maximum",
+    "load_downwards": "point_downward_load_maximum",
+    **{f"load_{check}": f"point_load_{check}" for check in ("of_mesh", "half_step", "double_mesh", "damped", "finest")},
+    "offset": LARGEST_OFFSET.name,
+    "law_offset": "law_largest_offset",
+    "maximum_excursion": "largest_offset_by_dof",
+    "excursion": "point_excursion or water_excursion",
+    "excursion_of_realisation": "point_excursion_of_realisation",
+    "threshold_excursion": "threshold_water_excursion",
+    **dict.fromkeys(("contacts", "line_contacts"), CONTACT_COUNT.name),
+    **dict.fromkeys(("snaps", "line_snaps"), SNAP_COUNT.name),
+    "snap_peak": LARGEST_SNAP.name,
+    **dict.fromkeys(("least_rise_time", "shortest_rise"), SHORTEST_RISE_TIME.name),
+    "snap_rise_time": "median_rise_time",
+    "both_peak": "both_cables_tension_maximum",
+    "both_peak_time": "both_cables_peak_time",
+    "both_tension": "both_cables_tension_peak_since_row",
+    "sum_peak_tension": BOTH_CABLES_PEAK_TENSION.name,
+    **dict.fromkeys(("plateau_tension", "sum_plateau_tension"), BOTH_CABLES_PLATEAU_TENSION.name),
+    **dict.fromkeys(("impact_tension", "sum_impact_tension"), BOTH_CABLES_IMPACT_TENSION.name),
+    "utilisation": FACTORED_UTILISATION.name,
+    "utilisation_high": f"{FACTORED_UTILISATION.name}_high",
+    "limit_utilisation": "limit_factored_utilisation",
+    "component_utilisation": "component_factored_utilisation",
 }
+#: Former names that had more before or after them where a result holds the worst, an end of a band and the like.
+_FORMER = re.compile(
+    f"(worst_|steady_|cause_|direction_|)({'|'.join(name for name in FORMER if re.search('anchor_|maximum_', name))})"
+    "(_low|_high|_of_realisation|)"
+)
 
 
 def former(name: str) -> str:
     """Say what a variable of an earlier version is called; empty where it was none."""
-    return f"'{name}' of earlier versions is called {FORMER[name]}" if name in FORMER else ""
+    called, found = FORMER.get(name, ""), _FORMER.fullmatch(name)
+    if found and not called:
+        called = " or ".join(f"{found[1]}{one}{found[3]}" for one in FORMER[found[2]].split(" or "))
+    return f"'{name}' of earlier versions is called {called}" if called else ""
 
 
 @dataclass(frozen=True)

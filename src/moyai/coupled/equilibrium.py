@@ -137,7 +137,7 @@ def find_coupled_equilibrium(
     for name, body in bodies.items():
         if not isinstance(body, RigidBody):
             raise InputError(
-                f"body {name!r} is planar: its rest is known", parameter=f"bodies.{name}", allowed="rigid bodies"
+                f"body {name!r} is planar: its equilibrium is known", parameter=f"bodies.{name}", allowed="rigid bodies"
             )
     calm = Flow() if flow is None else Flow(flow.velocity, flow.current)
     search = _NewtonSearch(network, {name: body for name, body in bodies.items() if isinstance(body, RigidBody)}, calm)
@@ -328,4 +328,9 @@ class _NewtonSearch:
     @staticmethod
     def _rested(body: RigidBody, carrier: RigidCarrier) -> RigidBody:
         """Return the body at its rest; springs and coefficients keep the pose that they were given for."""
-        return replace(body, position=carrier.position, rotation=roll_pitch_yaw(carrier.rotation), rest=body.rest_pose)
+        return replace(
+            body,
+            position=carrier.position,
+            rotation=roll_pitch_yaw(carrier.rotation),
+            equilibrium=body.equilibrium_pose,
+        )

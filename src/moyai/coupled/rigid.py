@@ -108,7 +108,7 @@ class RigidBody:
     free: tuple[bool, ...] = (True,) * 6
     #: Place of the origin [m] and yaw [rad] that ``stiffness`` counts from; those of the start when left out; shape
     #: (3,).
-    rest: tuple[ArrayLike, float] | None = None
+    equilibrium: tuple[ArrayLike, float] | None = None
     #: Place in body axes that stays where it is at the start: the body only turns about it. Damping, stiffness and the
     #: moments of the results then refer to this place, not to the centre of gravity. Shape (3,).
     pin: ArrayLike | None = None
@@ -163,11 +163,11 @@ class RigidBody:
         return np.asarray(self.centre_of_gravity if self.pin is None else self.pin, dtype=float)
 
     @property
-    def rest_pose(self) -> tuple[Array, float]:
+    def equilibrium_pose(self) -> tuple[Array, float]:
         """Place of the origin and yaw that the stiffness counts from."""
-        if self.rest is None:
+        if self.equilibrium is None:
             return np.asarray(self.position, dtype=float), float(np.asarray(self.rotation)[2])
-        return np.asarray(self.rest[0], dtype=float), float(self.rest[1])
+        return np.asarray(self.equilibrium[0], dtype=float), float(self.equilibrium[1])
 
     @property
     def start_rotation(self) -> Array:
@@ -251,9 +251,9 @@ class RigidCarrier:
             free[:3] = 0.0
         radiated, inputs, outputs = np.zeros((6, 6)), np.zeros((0, 6), np.complex128), np.zeros((6, 0), np.complex128)
         self.poles = np.zeros(0, np.complex128)
-        rest_place, rest_yaw = body.rest_pose
-        upright = rotation_matrix((0.0, 0.0, rest_yaw))
-        rest = np.array([*(np.asarray(rest_place) + upright @ centre), rest_yaw])
+        place_there, equilibrium_yaw = body.equilibrium_pose
+        upright = rotation_matrix((0.0, 0.0, equilibrium_yaw))
+        rest = np.array([*(np.asarray(place_there) + upright @ centre), equilibrium_yaw])
         stiffness, linear = np.array(body.stiffness), np.array(body.linear_damping)
         constant = np.array(body.force)
         if body.pin is None:
@@ -266,7 +266,12 @@ class RigidCarrier:
             linear = linear + found.memory.dashpot
             stiffness = stiffness + found.stiffness
             constant[2] += water.density * water.gravity * found.displaced_volume
-            rest = np.array([*(found.rest + rotation_matrix((0.0, 0.0, found.rest_yaw)) @ centre), found.rest_yaw])
+            rest = np.array(
+                [
+                    *(found.equilibrium_position + rotation_matrix((0.0, 0.0, found.equilibrium_yaw)) @ centre),
+                    found.equilibrium_yaw,
+                ]
+            )
             self.excitation = found.excitation(flow.waves)
             self.states_of_memory = np.zeros(self.poles.size, np.complex128)
         self._body = (

@@ -53,9 +53,9 @@ class WaveLoads:
     #: Point that rotations and moments are about, in the axes of the coefficients (z from still water) [m]; shape (3,).
     reference: Array
     #: Where the origin of the body axes stands at rest in site axes [m]; shape (3,).
-    rest: Array
+    equilibrium_position: Array
     #: Yaw at rest [rad].
-    rest_yaw: float = 0.0
+    equilibrium_yaw: float = 0.0
     #: Origin of the coefficients in body axes, x and y [m].
     origin: tuple[float, float] = (0.0, 0.0)
     #: Phases of the waves at the present place of the body instead of its place at rest.
@@ -72,8 +72,8 @@ class WaveLoads:
         dataset: xr.Dataset,
         *,
         displaced_volume: float,
-        rest: ArrayLike,
-        rest_yaw: float = 0.0,
+        equilibrium_position: ArrayLike,
+        equilibrium_yaw: float = 0.0,
         origin: tuple[float, float] = (0.0, 0.0),
         stiffness: ArrayLike | None = None,
         follow: bool = False,
@@ -87,9 +87,9 @@ class WaveLoads:
             All six rigid-body degrees of freedom, with infinite-frequency added mass.
         displaced_volume : float
             At rest [m3].
-        rest : array_like (3,)
+        equilibrium_position : array_like (3,)
             Where the origin of the body axes stands when the body floats as the coefficients say [m].
-        rest_yaw, origin, follow
+        equilibrium_yaw, origin, follow
             As for the class.
         stiffness : array_like (6, 6), optional
             Hydrostatic with the weight of the body, about the reference point; that of the dataset when left out.
@@ -144,8 +144,8 @@ class WaveLoads:
             states,
             float(displaced_volume),
             np.array(data["reference_point"].values, dtype=float),
-            np.asarray(rest, dtype=float),
-            float(rest_yaw),
+            np.asarray(equilibrium_position, dtype=float),
+            float(equilibrium_yaw),
             origin,
             follow,
             checks,
@@ -155,7 +155,9 @@ class WaveLoads:
     def about(self, centre: Array, position: Array) -> WaveLoads:
         """Return the loads about the centre of gravity, given in body axes [m]."""
         old = self.reference
-        new = np.array([centre[0] - self.origin[0], centre[1] - self.origin[1], centre[2] + self.rest[2]])
+        new = np.array(
+            [centre[0] - self.origin[0], centre[1] - self.origin[1], centre[2] + self.equilibrium_position[2]]
+        )
         dx, dy, dz = old - new
         motion = np.eye(6)
         motion[:3, 3:] = np.array([[0.0, dz, -dy], [-dz, 0.0, dx], [dy, -dx, 0.0]])
@@ -210,10 +212,12 @@ class Excitation:
         else:
             self.table = np.repeat(loads.amplitude, order.size, axis=0)
         self.loads, self.waves = loads, waves
-        turn = loads.rest_yaw
+        turn = loads.equilibrium_yaw
         c, s = math.cos(turn), math.sin(turn)
         x, y = loads.origin
-        self.place = np.array([loads.rest[0] + c * x - s * y, loads.rest[1] + s * x + c * y])
+        self.place = np.array(
+            [loads.equilibrium_position[0] + c * x - s * y, loads.equilibrium_position[1] + s * x + c * y]
+        )
         # of the centre of gravity from the origin of the coefficients
         self.arm = loads.reference[:2]
 

@@ -87,7 +87,7 @@ def relax_network(
     residual = left / reference
     if not (residual <= max(tolerance, good_enough) and np.isfinite(run.place).all()):
         raise ConvergenceError(
-            f"no rest after {done} steps: {residual:.2g} of the largest tension is left at "
+            f"no equilibrium after {done} steps: {residual:.2g} of the largest tension is left at "
             f"{name_of_node(network, int(worst))}",
             parameter="statics",
             allowed=f"at most {good_enough:g}",

@@ -1,4 +1,4 @@
-"""Why a network has no rest, or none was found: what sinks, rises or drifts for ever, what is a mechanism."""
+"""Why a network has no equilibrium, or none was found: what sinks, rises or drifts for ever, what is a mechanism."""
 
 from __future__ import annotations
 
@@ -96,7 +96,7 @@ def advice(network: Network, place: Array, flow: Flow) -> str:
     if mechanism:
         return mechanism
     if moving:
-        return "slack parts may flutter in this current and have no rest: lower the current, or run it with time"
+        return "slack parts may flutter in this current and have no equilibrium: lower the current, or run it with time"
     return "give a better start, more steps, or look for slack parts that may lie anywhere"
 
 

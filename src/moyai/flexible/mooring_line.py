@@ -177,7 +177,7 @@ def carried_along(network: Network, rest: State, places: Mapping[str, Array]) ->
     Raises
     ------
     InputError
-        When the lines find no rest there.
+        When the lines find no equilibrium there.
     """
     nodes, position = network.nodes, np.array(network.nodes.position)
     guess = np.array(rest.position)
@@ -192,6 +192,8 @@ def carried_along(network: Network, rest: State, places: Mapping[str, Array]) ->
         found = solve_equilibrium(moved, start=State(0.0, guess, np.zeros_like(guess)))
     except ConvergenceError as error:
         raise InputError(
-            f"the lines in motion find no rest: {error.fault.message}", parameter="lines", remedy=error.fault.remedy
+            f"the lines in motion find no equilibrium: {error.fault.message}",
+            parameter="lines",
+            remedy=error.fault.remedy,
         ) from error
     return State(0.0, found.state.position, np.zeros_like(guess))

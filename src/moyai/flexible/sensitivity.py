@@ -96,11 +96,13 @@ class PeakSensitivity:
         )
 
 
-def refined_start(network: Network, factor: int, start: State | None, rest_flow: Flow | None) -> tuple[Network, State]:
+def refined_start(
+    network: Network, factor: int, start: State | None, equilibrium_flow: Flow | None
+) -> tuple[Network, State]:
     """Return a finer mesh and where a run on it starts.
 
-    A run from rest starts from the rest of the finer mesh itself: places between those of the given mesh are no rest
-    there, and the jolt would count as an effect of the mesh.
+    A run from rest starts from the equilibrium of the finer mesh itself: places between those of the given mesh are
+    none there, and the jolt would count as an effect of the mesh.
 
     Parameters
     ----------
@@ -109,14 +111,14 @@ def refined_start(network: Network, factor: int, start: State | None, rest_flow:
         Into how many every bar is cut.
     start : State or None
         On the given mesh.
-    rest_flow : Flow or None
+    equilibrium_flow : Flow or None
         In which ``start`` is at rest; ``None`` where it is none.
     """
     finer, state = refined(network, factor, start)
-    if rest_flow is None:
+    if equilibrium_flow is None:
         return finer, state
     try:
-        return finer, replace(solve_equilibrium(finer, flow=rest_flow, start=state).state, time=state.time)
+        return finer, replace(solve_equilibrium(finer, flow=equilibrium_flow, start=state).state, time=state.time)
     except ConvergenceError:
         return finer, state
 
@@ -128,7 +130,7 @@ def peak_sensitivity(
     bar: int,
     after: float = 0.0,
     start: State | None = None,
-    rest_flow: Flow | None = None,
+    equilibrium_flow: Flow | None = None,
     progress: Progress = silent,
     **options: Any,
 ) -> PeakSensitivity:
@@ -147,7 +149,7 @@ def peak_sensitivity(
         Only peaks after this time since the start count [s].
     start : State, optional
         As built, without speed, when left out.
-    rest_flow : Flow, optional
+    equilibrium_flow : Flow, optional
         In which ``start`` is in equilibrium: the finer mesh then starts from its own equilibrium in it.
     progress : Progress
         Called with the number of the run.
@@ -211,7 +213,7 @@ def peak_sensitivity(
     progress("sensitivity", 1, 5)
     half, _ = peak("half the step", network, start, bar, step=0.5 * step)
     progress("sensitivity", 2, 5)
-    finer, state = refined_start(network, 2, start, rest_flow)
+    finer, state = refined_start(network, 2, start, equilibrium_flow)
     # a step given by hand is the longest that is stable on the given mesh
     shorter = {} if options.get("step") is None else {"step": 0.5 * options["step"]}
     mesh, _ = peak("half the mesh", finer, state, 2 * bar + (1 if last else 0), **shorter)

@@ -158,7 +158,7 @@ class LineSystem:
         hydrostatic_stiffness: ArrayLike | None = None,
         *,
         start: ArrayLike = (0.0,) * 6,
-        subtract_rest_force: bool = False,
+        subtract_equilibrium_force: bool = False,
         free: Sequence[int] = range(6),
         tolerance: float = 1e-10,
     ) -> MooringEquilibrium:
@@ -172,7 +172,7 @@ class LineSystem:
             Linear restoring of buoyancy and weight about the zero position; none for a body carried by its lines alone.
         start : array_like (6,)
             First position.
-        subtract_rest_force : bool
+        subtract_equilibrium_force : bool
             Whether the line force at zero position is balanced already (by weight and buoyancy), so that a zero load
             leaves the body at zero.
         free : sequence of int
@@ -190,7 +190,7 @@ class LineSystem:
             np.zeros((6, 6)) if hydrostatic_stiffness is None else np.asarray(hydrostatic_stiffness, dtype=float)
         )
         evaluate = self.evaluator()
-        rest = evaluate(np.zeros(6))[0] if subtract_rest_force else np.zeros(6)
+        rest = evaluate(np.zeros(6))[0] if subtract_equilibrium_force else np.zeros(6)
 
         def imbalance(position: Array) -> Array:
             values: Array = evaluate(position)[0] - rest + load - hydrostatic @ position
@@ -342,7 +342,7 @@ class PlanarLineSystem:
         hydrostatic_stiffness: ArrayLike | None = None,
         *,
         start: ArrayLike = (0.0, 0.0, 0.0),
-        subtract_rest_force: bool = False,
+        subtract_equilibrium_force: bool = False,
         tolerance: float = 1e-10,
     ) -> MooringEquilibrium:
         """Find where line force + load - hydrostatic stiffness x position vanishes; see :meth:`LineSystem.equilibrium`.
@@ -364,7 +364,7 @@ class PlanarLineSystem:
         def planar_stiffness(position: Array) -> Array:
             return evaluate(_space(position))[1][np.ix_(_KEPT, _KEPT)]
 
-        rest = planar_force(np.zeros(3)) if subtract_rest_force else np.zeros(3)
+        rest = planar_force(np.zeros(3)) if subtract_equilibrium_force else np.zeros(3)
         first = np.asarray(start, dtype=float)
         scale = self.system._load_scale(_space(first), _space(load))[_KEPT]
         position, residual, steps = newton_with_line_search(

@@ -216,7 +216,11 @@ def identity_checks(
     for solution in solutions:
         states = solution.states
         flux = water.density * water.gravity * states.group_velocity * states.along / states.wave_number
-        out = np.abs(solution.reflection) ** 2 + np.abs(solution.transmission) ** 2 + solution.lid_loss
+        out = (
+            np.abs(solution.reflection_coefficient) ** 2
+            + np.abs(solution.transmission_coefficient) ** 2
+            + solution.lid_loss
+        )
         energy.append(float(np.abs(out - 1.0).max()))
         mass_scale = _pair_scale(solution.added_mass)
         inertia = _pair_scale(states.omega[:, None, None] * solution.added_mass)

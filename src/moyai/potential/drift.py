@@ -30,9 +30,9 @@ class FarFieldDrift:
     #: Along y; only energy that is taken from the waves pushes that way; shape (omega,).
     along_crest: Array
     #: Reflection coefficient of the moving section; shape (omega,).
-    reflection: ComplexArray
+    reflection_coefficient: ComplexArray
     #: Transmission coefficient of the moving section; shape (omega,).
-    transmission: ComplexArray
+    transmission_coefficient: ComplexArray
     #: 1 - |R|^2 - |T|^2; shape (omega,).
     loss: Array
 
@@ -114,15 +114,15 @@ def mean_drift_far_field(
     part = solution.at_heading(heading)
     velocity = -1j * part.states.omega[:, None] * _amplitudes(solution, motions)
     waves = np.einsum("wj,wjs->ws", velocity, part.radiated_wave)
-    reflection, transmission = part.reflection + waves[:, 0], part.transmission + waves[:, 1]
+    reflection, transmission = part.reflection_coefficient + waves[:, 0], part.transmission_coefficient + waves[:, 1]
     back, on = np.abs(reflection) ** 2, np.abs(transmission) ** 2
     ratio = part.states.group_velocity * part.states.wave_number / part.states.omega
     scale = 0.5 * solution.water.density * solution.water.gravity * ratio * np.cos(heading)
     return FarFieldDrift(
         horizontal=scale * np.cos(heading) * (1.0 + back - on),
         along_crest=scale * np.sin(heading) * (1.0 - back - on),
-        reflection=reflection,
-        transmission=transmission,
+        reflection_coefficient=reflection,
+        transmission_coefficient=transmission,
         loss=1.0 - back - on,
     )
 

@@ -77,10 +77,10 @@ class HeadingSolution:
     diffraction_force: ComplexArray
     #: Wave amplitude on the minus and the plus side per unit velocity [m per m/s]; shape (omega, mode, 2).
     radiated_wave: ComplexArray
-    #: ``reflection``, ``transmission``: Of the section held fixed, phase at x = 0; shape (omega,).
-    reflection: ComplexArray
-    #: See ``reflection``.
-    transmission: ComplexArray
+    #: Reflection coefficient of the section held fixed, phase at x = 0; shape (omega,).
+    reflection_coefficient: ComplexArray
+    #: Transmission coefficient of the section held fixed, phase at x = 0; shape (omega,).
+    transmission_coefficient: ComplexArray
     #: Share of the incident energy that the lid takes when the section is held fixed; shape (omega,).
     lid_loss: Array
     #: Part of the radiation damping that the lid takes; shape (omega, mode, mode).
@@ -228,8 +228,8 @@ def solve_states(
         froude_krylov_force=(-1j * states.omega * density * unit)[:, None] * incident,
         diffraction_force=unit[:, None] * force[:, count],
         radiated_wave=radiated,
-        reflection=amplitude[:, count, 0],
-        transmission=1.0 + amplitude[:, count, 1],
+        reflection_coefficient=amplitude[:, count, 0],
+        transmission_coefficient=1.0 + amplitude[:, count, 1],
         lid_loss=lid_loss,
         lid_damping=lid_damping,
         radiation=potential[:, :, :count],

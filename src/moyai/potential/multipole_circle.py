@@ -154,7 +154,7 @@ class SubmergedCircle:
     #: Amplitude of the radiated wave on one side over the amplitude of the motion.
     wave_ratio: float
     #: Of the cylinder held fixed; its modulus is 1, since no wave is reflected.
-    transmission: complex
+    transmission_coefficient: complex
     #: Relative difference of the power of the damping force and of the two waves.
     energy_defect: float
 
@@ -200,7 +200,7 @@ def submerged_circle(relative_wave_number: float, submergence: float) -> Submerg
         added_mass=float(moment.real),
         radiation_damping=float(moment.imag),
         wave_ratio=float(ratio),
-        transmission=complex(1.0 + 2.0 * (wave @ answer[:, 1])),
+        transmission_coefficient=complex(1.0 + 2.0 * (wave @ answer[:, 1])),
         energy_defect=float(abs(damping - moment.imag) / abs(moment.imag)),
     )
 

@@ -69,9 +69,9 @@ class RectangleSolution:
     #: Part of the undisturbed wave in it [N/m2, N/m]; shape (n, h, 3).
     froude_krylov_force: ComplexArray
     #: Reflection coefficient of the body held fixed; shape (n, h).
-    reflection: ComplexArray
+    reflection_coefficient: ComplexArray
     #: Transmission coefficient of the body held fixed; shape (n, h).
-    transmission: ComplexArray
+    transmission_coefficient: ComplexArray
     #: Energy, Haskind, symmetry, far-field damping.
     checks: tuple[IdentityCheck, ...]
 
@@ -118,8 +118,13 @@ class RectangleSolution:
                 "force of the scattered wave",
                 "N/m2, N/m",
             ),
-            "reflection_coefficient": (scatter, self.reflection, "complex reflection, body held", "1"),
-            "transmission_coefficient": (scatter, self.transmission, "complex transmission, body held", "1"),
+            "reflection_coefficient": (scatter, self.reflection_coefficient, "complex reflection, body held", "1"),
+            "transmission_coefficient": (
+                scatter,
+                self.transmission_coefficient,
+                "complex transmission, body held",
+                "1",
+            ),
         }
         return xr.Dataset(
             {
@@ -202,7 +207,7 @@ def solve_rectangle(
     >>> from moyai.sea import Water
     >>> water = Water(depth=10.0, density=1025.0, gravity=9.81)
     >>> found = solve_rectangle(4.0, 1.0, water, [1.5], centre=(0.0, -0.2))
-    >>> found.added_mass.shape, round(float(abs(found.transmission[0, 0])), 4)   # [kg/m], [-]
+    >>> found.added_mass.shape, round(float(abs(found.transmission_coefficient[0, 0])), 4)   # [kg/m], [-]
     ((1, 3, 3), 0.7253)
     """
     frequencies, headings = _checked(beam, draught, water, omega, centre, heading)
@@ -255,8 +260,10 @@ def solve_rectangle(
         radiated_wave=radiated,
         excitation_force=force("exciting_moment"),
         froude_krylov_force=force("incident_moment"),
-        reflection=np.array([[fields.reflection for fields in column] for column in answers]).T,
-        transmission=np.array([[fields.transmission for fields in column] for column in answers]).T,
+        reflection_coefficient=np.array([[fields.reflection_coefficient for fields in column] for column in answers]).T,
+        transmission_coefficient=np.array(
+            [[fields.transmission_coefficient for fields in column] for column in answers]
+        ).T,
         checks=(),
     )
     return replace(solution, checks=_identities(solution))
@@ -345,7 +352,9 @@ def _identities(solution: RectangleSolution) -> tuple[IdentityCheck, ...]:
     """Compare the solution with what every correct one obeys, [eq:reference-identities]."""
     water, omega = solution.water, solution.omega
     speed = np.atleast_1d(np.asarray(group_velocity(omega, water.depth, water.gravity), dtype=float))
-    energy = np.max(np.abs(np.abs(solution.reflection) ** 2 + np.abs(solution.transmission) ** 2 - 1.0))
+    energy = np.max(
+        np.abs(np.abs(solution.reflection_coefficient) ** 2 + np.abs(solution.transmission_coefficient) ** 2 - 1.0)
+    )
     mass = solution.added_mass
     scale = np.sqrt(np.abs(np.einsum("nii,njj->nij", mass, mass)).max(axis=0))
     symmetry = np.max(np.abs(mass - np.swapaxes(mass, 1, 2)) / scale)

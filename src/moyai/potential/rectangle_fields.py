@@ -128,10 +128,10 @@ class Fields:
     incident_moment: ComplexArray
     #: Amplitude of the wave mode at x > 0, phase referred to x = 0; shape (3,).
     radiated: ComplexArray
-    #: ``reflection``, ``transmission``: Of the body held fixed, phase referred to x = 0.
-    reflection: complex
-    #: See ``reflection``.
-    transmission: complex
+    #: ``reflection_coefficient``, ``transmission_coefficient``: Of the body held fixed, phase referred to x = 0.
+    reflection_coefficient: complex
+    #: See ``reflection_coefficient``.
+    transmission_coefficient: complex
     #: Value of the wave mode at the surface.
     surface: float
 
@@ -207,8 +207,8 @@ def solve_fields(inner: InnerRegion, kernel: OuterKernel, surface_number: float,
         exciting_moment=exciting,
         incident_moment=_incident(inner, outer, normal),
         radiated=outgoing,
-        reflection=complex(0.5 * (mirror[True] + mirror[False])),
-        transmission=complex(0.5 * (mirror[True] - mirror[False])),
+        reflection_coefficient=complex(0.5 * (mirror[True] + mirror[False])),
+        transmission_coefficient=complex(0.5 * (mirror[True] - mirror[False])),
         surface=outer.wave_surface,
     )
 

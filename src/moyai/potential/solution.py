@@ -103,13 +103,13 @@ class RadiationDiffraction:
     @property
     def reflection_coefficient(self) -> ComplexArray:
         """R (omega, heading) of the section held fixed, phase at x = 0."""
-        values: ComplexArray = self._over_headings("reflection")
+        values: ComplexArray = self._over_headings("reflection_coefficient")
         return values
 
     @property
     def transmission_coefficient(self) -> ComplexArray:
         """T (omega, heading) of the section held fixed, phase at x = 0."""
-        values: ComplexArray = self._over_headings("transmission")
+        values: ComplexArray = self._over_headings("transmission_coefficient")
         return values
 
     def _over_headings(self, name: str) -> Any:
@@ -138,8 +138,8 @@ class RadiationDiffraction:
             "Froude_Krylov_force": over("froude_krylov_force"),
             "diffraction_force": over("diffraction_force"),
             "excitation_force": over("excitation_force"),
-            "reflection_coefficient": over("reflection"),
-            "transmission_coefficient": over("transmission"),
+            "reflection_coefficient": over("reflection_coefficient"),
+            "transmission_coefficient": over("transmission_coefficient"),
             "lid_loss": over("lid_loss"),
             "infinite_frequency_added_mass": self.infinite_frequency_added_mass,
             "zero_frequency_added_mass": self.zero_frequency_added_mass,

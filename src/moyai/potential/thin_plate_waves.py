@@ -159,7 +159,7 @@ class PlateWaves:
         return self.solution.radiated_wave
 
     @property
-    def excitation(self) -> ComplexArray:
+    def excitation_force(self) -> ComplexArray:
         """Excitation (omega, side, mode) per unit amplitude of waves that come from the minus and from the plus side.
 
         From minus by pressure; from plus by the Haskind relation, which the checks hold for the other side.
@@ -170,14 +170,17 @@ class PlateWaves:
         return np.stack([part.excitation_force, plus], axis=1)
 
     @property
-    def reflection(self) -> ComplexArray:
+    def reflection_coefficient(self) -> ComplexArray:
         """R (omega, side) of the plates held fixed, for waves from the minus and the plus side, phase at x = 0."""
-        return np.stack([self.solution.normal.reflection, self.backward.normal.reflection], axis=1)
+        return self._of_both("reflection_coefficient")
 
     @property
-    def transmission(self) -> ComplexArray:
-        """T (omega,) of the plates held fixed; the same from either side."""
-        return self.solution.normal.transmission
+    def transmission_coefficient(self) -> ComplexArray:
+        """T (omega, side) of the plates held fixed, for waves from the minus and the plus side; the same from both."""
+        return self._of_both("transmission_coefficient")
+
+    def _of_both(self, name: str) -> ComplexArray:
+        return np.stack([getattr(part.normal, name) for part in (self.solution, self.backward)], axis=1)
 
     @property
     def jumps(self) -> tuple[PlateJump, ...]:
@@ -187,7 +190,8 @@ class PlateWaves:
     @property
     def checks(self) -> tuple[IdentityCheck, ...]:
         """Identities of the solve, and that waves of either side are transmitted alike."""
-        apart = float(np.abs(self.transmission - self.backward.normal.transmission).max())
+        minus, plus = self.transmission_coefficient.T
+        apart = float(np.abs(minus - plus).max())
         tolerance = self.solution.checks[0].tolerance
         return (
             *self.solution.checks,

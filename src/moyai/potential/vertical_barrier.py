@@ -31,10 +31,10 @@ class VerticalBarrier:
     added_mass: Array
     #: Radiation damping of motion along x [kg/(m s)]; shape (n,).
     radiation_damping: Array
-    #: ``reflection``, ``transmission``: Of the barrier held fixed, phase at the barrier; shape (n,).
-    reflection: ComplexArray
-    #: See ``reflection``.
-    transmission: ComplexArray
+    #: Reflection coefficient of the barrier held fixed, phase at the barrier; shape (n,).
+    reflection_coefficient: ComplexArray
+    #: Transmission coefficient of the barrier held fixed, phase at the barrier; shape (n,).
+    transmission_coefficient: ComplexArray
 
 
 def solve_vertical_barrier(
@@ -69,9 +69,10 @@ def solve_vertical_barrier(
     >>> from moyai.sea import Water
     >>> water = Water(depth=10.0, density=1025.0, gravity=9.81)
     >>> found = solve_vertical_barrier(2.0, water, [1.5])
-    >>> round(float(abs(found.transmission[0])), 3)
+    >>> round(float(abs(found.transmission_coefficient[0])), 3)
     0.933
-    >>> round(float(abs(found.transmission[0]) ** 2 + abs(found.reflection[0]) ** 2), 6)   # energy
+    >>> energy = abs(found.transmission_coefficient[0]) ** 2 + abs(found.reflection_coefficient[0]) ** 2
+    >>> round(float(energy), 6)
     1.0
     """
     depth = water.depth

@@ -7,11 +7,11 @@ from moyai.core.exports import exports
 if TYPE_CHECKING:
     from moyai.structures.cage.flexible.build import build_cage as build_cage
     from moyai.structures.cage.flexible.equilibrium import horizontal_balance as horizontal_balance
-    from moyai.structures.cage.flexible.equilibrium import solve_rest as solve_rest
+    from moyai.structures.cage.flexible.equilibrium import solve_cage_equilibrium as solve_cage_equilibrium
     from moyai.structures.cage.rigid.matsubara import model_cage as model_cage
     from moyai.structures.cage.rigid.matsubara import taut_lines as taut_lines
+    from moyai.structures.cage.rigid.statics import equilibrium_with_lines as equilibrium_with_lines
     from moyai.structures.cage.rigid.statics import free_floating as free_floating
-    from moyai.structures.cage.rigid.statics import rest_with_lines as rest_with_lines
     from moyai.structures.curtain.impact.cable import Impact as Impact
     from moyai.structures.curtain.impact.cable import closed_form as closed_form
 else:
@@ -19,9 +19,9 @@ else:
         __name__,
         {
             "cage.flexible.build": "build_cage",
-            "cage.flexible.equilibrium": "horizontal_balance solve_rest",
+            "cage.flexible.equilibrium": "horizontal_balance solve_cage_equilibrium",
             "cage.rigid.matsubara": "model_cage taut_lines",
-            "cage.rigid.statics": "free_floating rest_with_lines",
+            "cage.rigid.statics": "free_floating equilibrium_with_lines",
             "curtain.impact.cable": "Impact closed_form",
         },
     )

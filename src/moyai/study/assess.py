@@ -16,6 +16,7 @@ import numpy as np
 from moyai.core.errors import InputError
 from moyai.core.results import Result
 from moyai.core.validity import Notice
+from moyai.core.vocabulary import FACTORED_UTILISATION
 from moyai.design.codes import DesignCode, LineLoad, check_confirmation, check_line, design_code
 from moyai.design.long_term import return_level
 from moyai.mooring.anchors import DragAnchor, Sinker, check_drag_anchor, check_sinker
@@ -178,7 +179,7 @@ def _lines(study: Study, wanted: schema.LineChecks, found: list[Tensions]) -> tu
         "line": lines,
         "confirmed": ("code", [float(all(rule.confirmed for rule in code.rules)) for code in codes], {"units": "1"}),
     }
-    data = {"utilisation": (("code", "sea", *dims, "line"), utilisation, attributes)}
+    data = {FACTORED_UTILISATION.name: (("code", "sea", *dims, "line"), utilisation, attributes)}
     return xr.Dataset(data, coords=coordinates), notices
 
 
@@ -240,9 +241,8 @@ def _anchors(
         )
     attributes = {"units": "1", "long_name": "utilisation of the anchor"}
     coordinates = {"sea": [item.group for item in pulls], "line": list(wanted)}
-    return xr.Dataset({"utilisation": (("sea", *dims, "line"), values, attributes)}, coords=coordinates), list(
-        notices.values()
-    )
+    table = {FACTORED_UTILISATION.name: (("sea", *dims, "line"), values, attributes)}
+    return xr.Dataset(table, coords=coordinates), list(notices.values())
 
 
 def _long_term(study: Study, result: Result, wanted: schema.LongTerm) -> tuple[xr.Dataset, list[Notice]]:
@@ -334,9 +334,9 @@ def governing(study: Study, result: Result, most: int) -> list[tuple[str, int, f
     """
     found: list[tuple[str, int, float]] = []
     for group, what in (("lines", "line"), ("anchors", "anchor of")):
-        if not has(result, f"/assessment/{group}", "utilisation"):
+        if not has(result, f"/assessment/{group}", FACTORED_UTILISATION.name):
             continue
-        table = variable(result, f"/assessment/{group}", "utilisation")
+        table = variable(result, f"/assessment/{group}", FACTORED_UTILISATION.name)
         dims = [axis.name for axis in study.axes]
         for line in table.coords["line"].values:
             one = table.sel(line=line)
@@ -378,4 +378,4 @@ def _largest_of(study: Study, response: xr.DataArray) -> list[tuple[str, int, fl
 
 def utilised(result: Result) -> bool:
     """Whether lines or anchors were compared with something: their utilisations govern then."""
-    return any(has(result, f"/assessment/{group}", "utilisation") for group in ("lines", "anchors"))
+    return any(has(result, f"/assessment/{group}", FACTORED_UTILISATION.name) for group in ("lines", "anchors"))

@@ -172,7 +172,8 @@ def _require_watched(study: Study, known: dict[int, LedgerRecord]) -> bool:
             f"no case keeps the response '{study.watch}' that is watched",
             path="study.watch",
             allowed=", ".join(near) or error.fault.allowed,
-            remedy="name one that is kept, or request this one under 'responses' with its reduction; cases that ended "
+            remedy=error.fault.remedy
+            or "name one that is kept, or request this one under 'responses' with its reduction; cases that ended "
             "are kept, and the same command continues",
         ) from None
     return True

@@ -19,6 +19,7 @@ from moyai.core.arrays import Array
 from moyai.core.errors import InputError
 from moyai.core.options import checks_words
 from moyai.core.quantities import parse_quantity
+from moyai.core.vocabulary import former
 from moyai.study.responses import in_stated_unit, selected, split_response
 
 if TYPE_CHECKING:
@@ -149,7 +150,9 @@ class StudyTable:
                 f"there is no axis and no response '{wanted}'",
                 path="query",
                 allowed=", ".join(known[:12]) + (", ..." if len(known) > 12 else ""),
-                remedy=did_you_mean(wanted, [*known, *ends]) or "moyai query without further options lists them all",
+                remedy=former(last)
+                or did_you_mean(wanted, [*known, *ends])
+                or "moyai query without further options lists them all",
             )
         if len(near) > 1:
             raise InputError(f"'{wanted}' is the name of {len(near)} responses", path="query", allowed=", ".join(near))

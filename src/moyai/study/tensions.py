@@ -11,15 +11,19 @@ import numpy as np
 
 from moyai.core.errors import InputError
 from moyai.core.results import Result
-from moyai.core.vocabulary import BREAKING_LOAD, LINE_TENSION_MAXIMUM, LINE_TENSION_MEAN, former
+from moyai.core.vocabulary import (
+    ANCHOR_VERTICAL_TENSION_MAXIMUM,
+    BREAKING_LOAD,
+    LINE_TENSION_MAXIMUM,
+    LINE_TENSION_MEAN,
+    former,
+)
 from moyai.study import schema
 from moyai.study.definition import Study
 from moyai.study.responses import largest_tensions, selected, split_response
 
 if TYPE_CHECKING:
     import xarray as xr
-
-_UPLIFT = "maximum_anchor_vertical_tension"
 
 
 @dataclass(frozen=True)
@@ -127,9 +131,11 @@ def _found_by_name(study: Study, result: Result) -> list[Tensions]:
             continue
         maximum, mean = tensions[LINE_TENSION_MAXIMUM.name], tensions[LINE_TENSION_MEAN.name]
         breaking = breaking_loads(result, node.path.strip("/").split("/")[0])
-        uplift = held.get(_UPLIFT)
+        uplift = held.get(ANCHOR_VERTICAL_TENSION_MAXIMUM.name)
         if uplift is not None:
-            uplift = uplift.max([dim for dim in uplift.dims if dim not in (*axes, "line")])
+            # of a cage it stands along its anchors and not along all its lines
+            others = [dim for dim in uplift.dims if dim not in (*axes, "line")]
+            uplift = uplift.max(others) if "line" in uplift.dims else None
         found.append(
             Tensions(node.path.strip("/"), maximum, mean, maximum * math.nan if breaking is None else breaking, uplift)
         )

@@ -14,7 +14,7 @@ from moyai.structures.cage.rigid.model import RigidCageProblem, RigidCageSetting
 from moyai.structures.cage.rigid.modes import natural_modes
 from moyai.structures.cage.rigid.pack import pack
 from moyai.structures.cage.rigid.runs import RigidCageRun, run_wave
-from moyai.structures.cage.rigid.statics import free_floating, rest_with_lines
+from moyai.structures.cage.rigid.statics import equilibrium_with_lines, free_floating
 from moyai.structures.cage.rigid.waves import wave_of
 
 _PAPER = "Matsubara, Noda and Nishihira, dynamic response of an offshore fish cage"
@@ -37,7 +37,7 @@ def _run(
     )
     settings = RigidCageSettings(periods=24, settled_periods=8, tolerance=1e-5)
     problem = RigidCageProblem("", cage, (), VISCOSITY, Environment(WATER), settings=settings)
-    rest = rest_with_lines(cage, lines, WATER, VISCOSITY) if lines else free_floating(cage, WATER, VISCOSITY)
+    rest = equilibrium_with_lines(cage, lines, WATER, VISCOSITY) if lines else free_floating(cage, WATER, VISCOSITY)
     return run_wave(problem, lines, rest, WATER, wave_of("linear", height, period, 0.0, WATER, 0.0, settings.periods))
 
 
@@ -77,7 +77,7 @@ def _literal() -> float:
 
     cage = model_cage()
     lines = taut_lines(cage)
-    rest = rest_with_lines(cage, lines, WATER, VISCOSITY)
+    rest = equilibrium_with_lines(cage, lines, WATER, VISCOSITY)
     wave = wave_of("linear", 0.03, 1.1, 0.0, WATER, 0.0, 16)
     packed = pack(cage, lines, WATER, VISCOSITY, waves=wave.components, ramp=5.5)
     packed = literal_pack(packed, cage, WATER, ("enclosed_volume",))

@@ -20,7 +20,7 @@ from moyai.sea.water import Water
 from moyai.structures.cage.flexible.build import build_cage
 from moyai.structures.cage.flexible.collar import Collar, Pipe
 from moyai.structures.cage.flexible.design import CageDesign, CageNet, Sinkers
-from moyai.structures.cage.flexible.equilibrium import horizontal_balance, solve_rest
+from moyai.structures.cage.flexible.equilibrium import horizontal_balance, solve_cage_equilibrium
 from moyai.structures.cage.flexible.model import CageMesh, FixedCollar, FlexibleCage
 
 _VISCOSITY = 1.14e-6
@@ -82,7 +82,7 @@ def _towed(speed: float, weight: float, wake: WakeName) -> tuple[float, float, f
     model = FlexibleCage(
         design, FixedCollar(), Water(2.7, 1000.0, 9.81), Bed(-2.7, 1e5, 1e4, 0.5), CageMesh(32, 6, 3, 0.5), _VISCOSITY
     )
-    rest = solve_rest(model, build_cage(model), uniform(speed, 0.0))
+    rest = solve_cage_equilibrium(model, build_cage(model), uniform(speed, 0.0))
     cage = rest.built.cages[0]
     split, pull = horizontal_balance(rest)
     return float(split.sum(axis=0)[0]), float(pull[0]), float(cage.volume(rest.state.position)) / cage.rest_volume

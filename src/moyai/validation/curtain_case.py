@@ -67,7 +67,7 @@ def _flume() -> xr.Dataset:
 
 
 def _peak(model: str) -> float:
-    return float(_flume()["impact_tension"].sel(impact_model=model))
+    return float(_flume()["both_cables_impact_tension"].sel(impact_model=model))
 
 
 @lru_cache(maxsize=1)
@@ -108,7 +108,7 @@ CASES: tuple[ValidationCase, ...] = (
     ValidationCase("curtain case: marching with 16 steps to the peak", _PAPER,
                    lambda: float(_flume()["march_error"][2]), -0.0383, 2e-3, note="printed digits"),
     ValidationCase("curtain case: drag level after the spike [N]", _PAPER,
-                   lambda: float(_flume()["plateau_tension"]), 2.92, 2e-3, note="printed digits"),
+                   lambda: float(_flume()["both_cables_plateau_tension"]), 2.92, 2e-3, note="printed digits"),
     ValidationCase("curtain case: squared velocity at the airport [m2/s2]", _FIELD,
                    lambda: float(_airport()["squared_velocity"][0]), 5.6471736, 1e-8, note="printed digits"),
     ValidationCase("curtain case: rope tension without pretension [kN]", _FIELD,

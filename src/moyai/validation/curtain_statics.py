@@ -134,7 +134,7 @@ def _scaled() -> float:
     large = solve_statics(curtain, power_law(0.3, 1 / 7, 0.2, sea), 0.2, 0.0, sea, passing_fraction=1.0)
     current = power_law(scale.to_model(0.3, "m/s"), 1 / 7, 0.2, flume)
     small = solve_statics(scale_curtain(curtain, scale), current, 0.2, 0.0, flume, passing_fraction=1.0)
-    pairs = (("anchor_force", "N"), ("upper_tension", "N"), ("float_reserve", "N/m"), ("toe_gap", "m"))
+    pairs = (("anchor_horizontal_tension", "N"), ("upper_tension", "N"), ("float_reserve", "N/m"), ("toe_gap", "m"))
     ratios = [scale.to_prototype(getattr(small, name), unit) / getattr(large, name) for name, unit in pairs]
     return float(max(abs(ratio - 1.0) for ratio in ratios))
 

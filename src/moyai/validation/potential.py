@@ -92,7 +92,7 @@ def _against_rectangle(heading: float) -> float:
             worst = max(worst, float((np.abs(a - b).max(axis=0) / np.outer(size, size)).max()))
         a, b = found.excitation_force, exact.excitation_force
         worst = max(worst, float((np.abs(a - b).max(axis=(0, 1)) / np.abs(b).max(axis=(0, 1))).max()))
-        worst = max(worst, float(np.abs(found.transmission_coefficient - exact.transmission).max()))
+        worst = max(worst, float(np.abs(found.transmission_coefficient - exact.transmission_coefficient).max()))
     return worst
 
 

@@ -123,7 +123,7 @@ def test_run_tells_both_kinds_of_line_and_its_steps(run) -> None:
     assert np.all(series.line_tension_peak_since_row.values >= series.tension.values - 1e-12)
     assert series.sizes["line_node"] == 21
     assert series.attrs["network_passes"] < 4.0
-    assert np.all(sea.maximum_uplift.values <= 1e-2 * moving)
+    assert np.all(sea.anchor_vertical_tension_maximum_lines_in_motion.values <= 1e-2 * moving)
     assert np.all(sea.least_grounded_length.values < 1.9)
     named = [check.name for check in run.checks]
     assert any("lines in motion at rest" in name for name in named)

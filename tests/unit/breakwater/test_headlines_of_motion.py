@@ -16,8 +16,8 @@ def sea(moving: float, still: float, members: tuple[float, ...] = (1.0, 1.2, 1.4
     return xr.Dataset(
         {
             "mean_offset": ("dof", [0.3, 0.0, 0.0]),
-            "maximum_excursion": ("dof", [float(np.mean(members)), 0.5, 0.1]),
-            "maximum_excursion_of_realisation": (("member", "dof"), np.outer(members, [1.0, 0.4, 0.1])),
+            "largest_offset_by_dof": ("dof", [float(np.mean(members)), 0.5, 0.1]),
+            "largest_offset_by_dof_of_realisation": (("member", "dof"), np.outer(members, [1.0, 0.4, 0.1])),
             "event_offset": ("dof", [moving, 0.0, 0.0]),
             "event_offset_lines_at_rest": ("dof", [still, 0.0, 0.0]),
         },

@@ -29,7 +29,7 @@ OTHER = replace(
     scatter=0.5 * SCATTER, bound=0.5 * SCATTER,
 )  # fmt: skip
 FACTOR = Criterion("factor", "line_utilisation", 0.5, "at most", "case", as_factor=True)
-UPLIFT = Criterion("uplift", "anchor_uplift", 0.0, "at most", "case", unit="N")
+UPLIFT = Criterion("uplift", "anchor_vertical_tension", 0.0, "at most", "case", unit="N")
 
 
 def page(*peaks):
@@ -91,7 +91,7 @@ def test_rows_of_tables_say_what_they_hold():
 
 def test_without_uplift_the_line_that_leaves_least_on_the_bed_is_named():
     calm = replace(GOVERNS, level="LWL", sea="operation", vertical=-0.5, grounded=40.0)
-    uplift = headline(anchor_headlines({}, [], [calm, GOVERNS]), "anchor_uplift")
+    uplift = headline(anchor_headlines({}, [], [calm, GOVERNS]), "anchor_vertical_tension")
     assert uplift.where == GOVERNS.where and uplift.detail.startswith("5 m of line stays on the bed")
 
 
@@ -169,7 +169,7 @@ def test_a_known_failure_wins_over_a_highest_line_that_is_not_known():
         GOVERNS, breaking_load=700e3, horizontal=350e3, vertical=20e3, vertical_scatter=20e3 + 0.0 * SCATTER,
     )  # fmt: skip
     highest = replace(highest, breaking_load=500e3)
-    pull = Criterion("pull", "anchor_horizontal_load", 300e3, "at most", "case", unit="N")
+    pull = Criterion("pull", "anchor_horizontal_tension", 300e3, "at most", "case", unit="N")
     for criterion in (FACTOR, UPLIFT, pull):
         alone = judge(page(highest), (criterion,), computed=True)
         assert alone.outcome == "not judged"
@@ -179,7 +179,9 @@ def test_a_known_failure_wins_over_a_highest_line_that_is_not_known():
         wide = replace(criterion, limit=10e6)
         assert judge(page(weak, highest), (wide,), computed=True).outcome == "not judged"
     numbers = page(weak, highest)
-    assert headline(numbers, "line_utilisation").text == headline(numbers, "anchor_uplift").text == "not known"
+    assert (
+        headline(numbers, "line_utilisation").text == headline(numbers, "anchor_vertical_tension").text == "not known"
+    )
 
 
 def test_a_bound_behind_a_larger_known_number_leaves_its_limit_open():
@@ -190,7 +192,7 @@ def test_a_bound_behind_a_larger_known_number_leaves_its_limit_open():
         horizontal_scatter=0.48 * SCATTER, vertical_scatter=0.01 * SCATTER, without_drift=True,
     )  # fmt: skip
     lying = replace(less, vertical=-5e3, vertical_scatter=-SCATTER)
-    pull = Criterion("pull", "anchor_horizontal_load", 600e3, "at most", "case", unit="N")
+    pull = Criterion("pull", "anchor_horizontal_tension", 600e3, "at most", "case", unit="N")
     for criterion in (FACTOR, replace(UPLIFT, limit=100e3), pull):
         assert judge(page(known), (criterion,), computed=True).outcome == "holds"
         for other in (less, lying):

@@ -48,7 +48,7 @@ def test_the_band_of_one_seed_holds_nine_of_ten_others():
 def test_regular_waves_have_no_chance_and_short_records_say_so():
     run, _ = run_of(regular=True)
     series = np.sin(2.0 * np.pi * run["time"].values / 6.0)
-    assert band_in_sea(None, "offset", run, 1.0, series) is None
+    assert band_in_sea(None, "largest_offset", run, 1.0, series) is None
     run, series = run_of(regular=False, duration=30.0)
     assert chance(run, 1.0, series) == (1.0, 1.0, "one seed, too short to show the scatter of its maximum")
 
@@ -98,11 +98,11 @@ def test_the_band_holds_the_answer_of_a_finer_mesh(monkeypatch):
         numbers.append({item.name: item for item in result.headlines})
         assert result.status == "converged" and "not_judged" in numbers[-1]
     coarse, fine = numbers
-    for name in ("volume_left", "drag", "line_tension", "collar_stress", "anchor_load", "offset"):
+    for name in ("volume_left", "drag", "line_tension", "collar_stress", "anchor_tension", "offset"):
         assert "mesh" in coarse[name].band.of, name
         assert coarse[name].band.low <= fine[name].value <= coarse[name].band.high, name
     # the pull on an anchor is told in its two parts
-    assert coarse["anchor_load"].detail.startswith("upwards ")
+    assert coarse["anchor_tension"].detail.startswith("upwards ")
 
 
 def test_each_line_carries_the_band_of_its_own_tension():
@@ -135,13 +135,13 @@ def test_each_line_carries_the_band_of_its_own_tension():
 def test_a_seed_too_short_for_its_scatter_proves_no_limit():
     """Of a pull more is possible, of a volume less: neither keeps its limit."""
     band = Band(38e3, 40e3, f"{TOO_SHORT}; laws")
-    pull = alone(Headline("anchor_load", "pull", 39e3, "N", band=band))
+    pull = alone(Headline("anchor_tension", "pull", 39e3, "N", band=band))
     volume = alone(Headline("volume_left", "volume", 0.7, "1", band=Band(0.6, 0.7, TOO_SHORT)))
     assert (pull.bound, volume.bound) == ("at least", "at most")
     limits = (
-        Criterion("greatest_anchor_load", "anchor_load", 41e3, "at most", "case file"),
+        Criterion("greatest_anchor_load", "anchor_tension", 41e3, "at most", "case file"),
         Criterion("least_volume_left", "volume_left", 0.5, "at least", "case file"),
     )
     assert [item.outcome for item in judge((pull, volume), limits, computed=True).judgements] == ["not judged"] * 2
-    long = Headline("anchor_load", "pull", 39e3, "N", band=Band(38e3, 40e3, "90 of 100 seeds; laws"))
+    long = Headline("anchor_tension", "pull", 39e3, "N", band=Band(38e3, 40e3, "90 of 100 seeds; laws"))
     assert alone(long) is long

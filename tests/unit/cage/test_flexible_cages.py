@@ -22,7 +22,12 @@ from moyai.structures.cage.flexible.afloat import floating_balance
 from moyai.structures.cage.flexible.build import build_cage
 from moyai.structures.cage.flexible.collar import Collar, Pipe
 from moyai.structures.cage.flexible.design import CageDesign, CageNet, Sinkers
-from moyai.structures.cage.flexible.equilibrium import CageEquilibrium, horizontal_balance, ring_shape, solve_rest
+from moyai.structures.cage.flexible.equilibrium import (
+    CageEquilibrium,
+    horizontal_balance,
+    ring_shape,
+    solve_cage_equilibrium,
+)
 from moyai.structures.cage.flexible.grid_mooring import Buoy, GridMooring
 from moyai.structures.cage.flexible.loads import drag_split
 from moyai.structures.cage.flexible.model import CageMesh, FixedCollar, FlexibleCage
@@ -75,7 +80,7 @@ def at_rest(
 ) -> tuple[FlexibleCage, CageEquilibrium]:
     model = flume(solidity, weight=weight)
     current = uniform(speed, heading) if speed else None
-    return model, solve_rest(model, build_cage(model), current)
+    return model, solve_cage_equilibrium(model, build_cage(model), current)
 
 
 @lru_cache
@@ -83,7 +88,7 @@ def at_sea(
     speed: float, heading: float = 0.0, rigid: bool = False, rings: int = 1
 ) -> tuple[FlexibleCage, CageEquilibrium]:
     model = moored(rigid=rigid, rings=rings)
-    return model, solve_rest(model, build_cage(model), uniform(speed, heading) if speed else None)
+    return model, solve_cage_equilibrium(model, build_cage(model), uniform(speed, heading) if speed else None)
 
 
 def share(rest: CageEquilibrium) -> float:
@@ -142,9 +147,9 @@ def test_reversed_current_mirrors() -> None:
 def test_solidity_to_zero_leaves_what_the_law_says_of_nothing() -> None:
     # Kristiansen and Faltinsen's screen vanishes with its twines; Loland's keeps a skin of 0.04
     model = flume(0.225, law=net_law("kristiansen_faltinsen"))
-    full = float(drag(solve_rest(model, build_cage(model), uniform(0.2, 0.0)))[0])
+    full = float(drag(solve_cage_equilibrium(model, build_cage(model), uniform(0.2, 0.0)))[0])
     thin = flume(0.002, law=net_law("kristiansen_faltinsen"))
-    found = solve_rest(thin, build_cage(thin), uniform(0.2, 0.0))
+    found = solve_cage_equilibrium(thin, build_cage(thin), uniform(0.2, 0.0))
     assert float(drag(found)[0]) < 0.02 * full
     assert share(found) > 0.995
 
@@ -153,7 +158,7 @@ def test_net_area_to_zero_leaves_no_drag() -> None:
     forces = []
     for depth in (1.44, 0.144, 0.0144):
         model = flume(mesh=CageMesh(16, 2, 1, 0.5), wall_depth=depth)
-        forces.append(float(drag(solve_rest(model, build_cage(model), uniform(0.1, 0.0)))[0]))
+        forces.append(float(drag(solve_cage_equilibrium(model, build_cage(model), uniform(0.1, 0.0)))[0]))
     assert forces[1] == pytest.approx(0.1 * forces[0], rel=0.1)
     assert forces[2] == pytest.approx(0.01 * forces[0], rel=0.1)
 
@@ -162,7 +167,7 @@ def test_growth_on_the_net_raises_drag_and_costs_volume() -> None:
     clean = at_rest(0.3)[1]
     fouled = Net(1.5 * 0.0018, 0.0018 / (1.0 - math.sqrt(1.0 - 0.225)))
     model = flume(net=fouled, clean_diameter=0.0018, growth_density=1100.0)
-    grown = solve_rest(model, build_cage(model), uniform(0.3, 0.0))
+    grown = solve_cage_equilibrium(model, build_cage(model), uniform(0.3, 0.0))
     assert drag(grown)[0] > 1.15 * drag(clean)[0] and share(grown) < share(clean) - 0.03
     # the growth weighs, the twine that bears stays as thick
     bars = grown.built.cages[0].net_bars
@@ -180,7 +185,7 @@ def test_the_mesh_converges() -> None:
     for around, down in ((8, 3), (16, 6), (32, 12)):
         # eight weights: every mesh has a knot for each
         model = flume(mesh=CageMesh(around, down, 3, 0.5), weight=7.84, sinkers=8)
-        rest = solve_rest(model, build_cage(model), uniform(0.26, 0.0))
+        rest = solve_cage_equilibrium(model, build_cage(model), uniform(0.26, 0.0))
         rows.append((float(drag(rest)[0]), share(rest)))
     found = np.array(rows)
     steps = np.abs(np.diff(found, axis=0))
@@ -357,7 +362,7 @@ def test_pictures_of_a_long_run_play_what_was_computed_about_the_governing_momen
 
 def test_a_shape_of_four_sides_is_symmetric() -> None:
     model = replace(moored(shape="square"), array_wake=False)
-    rest = solve_rest(model, build_cage(model), uniform(0.4, 0.0))
+    rest = solve_cage_equilibrium(model, build_cage(model), uniform(0.4, 0.0))
     force = drag(rest)
     assert abs(force[1]) < 2e-3 * force[0]
     # the diagonal of a square is no ovality
@@ -424,7 +429,7 @@ def test_random_cages_come_to_rest_with_the_pull_of_their_drag(seed: int) -> Non
     )  # fmt: skip
     design = CageDesign(shape, size, collar, net, Sinkers(int(rng.integers(6, 16)), 100.0, 0.0127))  # type: ignore[arg-type]
     model = FlexibleCage(design, grid, water, Bed(-water.depth, 1e5, 1e4, 0.5), CageMesh(16, 4, 3, 10.0), 1.3e-6)
-    rest = solve_rest(model, build_cage(model), uniform(rng.uniform(0.1, 0.6), rng.uniform(-3.0, 3.0)))
+    rest = solve_cage_equilibrium(model, build_cage(model), uniform(rng.uniform(0.1, 0.6), rng.uniform(-3.0, 3.0)))
     split, pull = horizontal_balance(rest)
     whole = split[:, :2].sum(axis=0)
     assert np.linalg.norm(pull[:2] - whole) < 0.02 * np.linalg.norm(whole)

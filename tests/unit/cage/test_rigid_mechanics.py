@@ -25,10 +25,10 @@ from moyai.structures.cage.rigid.shapes import (
     ring_floats,
 )
 from moyai.structures.cage.rigid.statics import (
+    equilibrium_with_lines,
     force_at,
     free_floating,
     immersion,
-    rest_with_lines,
     size_of,
     stiffness_at,
 )
@@ -196,7 +196,7 @@ def test_waves_of_no_height_give_no_motion(seed):
     water = Water(5.0 * size_of(cage), 1000.0, 9.81)
     free = free_floating(cage, water, NU)
     lines = pair(cage, free, water)
-    rest = rest_with_lines(cage, lines, water, NU)
+    rest = equilibrium_with_lines(cage, lines, water, NU)
     packed = pack(cage, lines, water, NU, waves=swell(0.0, 3.0, water), ramp=1.0)
     found = march(
         packed, np.concatenate([rest.place, np.zeros(3)]), duration=20.0, spacing=0.5, size=size_of(cage), period=3.0
@@ -217,7 +217,7 @@ def test_waves_and_current_reversed_mirror_the_motion(seed):
         current = uniform(0.05 * math.sqrt(9.81 * size_of(cage)), heading)
         waves = swell(0.2 * size_of(cage), period, water, heading)
         packed = pack(cage, lines, water, NU, waves=waves, current=current, ramp=period)
-        rest = rest_with_lines(cage, lines, water, NU, current)
+        rest = equilibrium_with_lines(cage, lines, water, NU, current)
         start = np.concatenate([rest.place, np.zeros(3)])
         runs.append(
             march(
@@ -250,7 +250,7 @@ def test_stiff_lines_leave_one_freedom_about_the_crossing_of_their_axes(seed, ki
     free = free_floating(cage, water, NU)
     weight = cage.mass * 9.81
     lines = pair(cage, free, water, kind, rng.uniform(0.9, 2.0), 1e7 * weight / size_of(cage), pull=1e-6)
-    rest = rest_with_lines(cage, lines, water, NU)
+    rest = equilibrium_with_lines(cage, lines, water, NU)
     packed = pack(cage, lines, water, NU)
     periods, shapes = natural_modes(packed, rest, size_of(cage))
     soft = shapes[0] * np.array([size_of(cage), size_of(cage), 1.0])
@@ -329,7 +329,7 @@ def test_fixed_steps_converge_with_fourth_order_and_adaptive_ones_to_them():
     errors = [float(np.linalg.norm(end - ends[-1])) for end in ends[:-1]]
     assert math.log2(errors[0] / errors[1]) == pytest.approx(4.0, abs=0.2)
     lines = pair(cage, free, water, pull=0.2)
-    rest = rest_with_lines(cage, lines, water, NU)
+    rest = equilibrium_with_lines(cage, lines, water, NU)
     packed = pack(cage, lines, water, NU, waves=swell(0.12 * size_of(cage), period, water), ramp=period)
     start = np.concatenate([rest.place, np.zeros(3)])
     fine = march_fixed(packed, start, duration=3 * period, step=period / 12000, every=120)
@@ -509,7 +509,7 @@ def test_rest_obeys_archimedes(seed):
     displaced = cage.solid_volume + cage.float_volume * immersion(cage, free.place)
     assert displaced * water.density == pytest.approx(cage.mass, rel=1e-9)
     lines = pair(cage, free, water, pull=0.2)
-    rest = rest_with_lines(cage, lines, water, NU)
+    rest = equilibrium_with_lines(cage, lines, water, NU)
     assert rest.tension[0] == pytest.approx(rest.tension[1], rel=1e-6)
     steep = [
         (line.place(rest.place, cage.centre)[1] - line.anchor[1]) / line.span(rest.place, cage.centre) for line in lines

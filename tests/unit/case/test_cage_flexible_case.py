@@ -167,7 +167,7 @@ def test_a_case_runs_to_its_report(tmp_path):
     # the worst of all currents stands over labels alone: a study keeps it
     for name, key in (
         ("line_tension_maximum", "line_tension_maximum"),
-        ("anchor_pull", "anchor_pull"),
+        ("anchor_tension", "anchor_tension"),
         ("collar_stress", "collar_stress_largest"),
     ):
         worst = statics[f"worst_{name}"]

@@ -40,7 +40,7 @@ OUTSIDE = Notice("range", "the wave breaks", severity="error")
         (result(1.99), OK, NOT_HELD),
         (result(5.0, OUTSIDE), OK, NOT_HELD),
         (result(1.99, OUTSIDE), OK, NOT_HELD),
-        (result(5.0, failure="no rest"), FAILED, FAILED),
+        (result(5.0, failure="no equilibrium"), FAILED, FAILED),
         (result(5.0, violation=1.0), FAILED, FAILED),
     ],
 )

@@ -12,7 +12,7 @@ import xarray as xr
 from moyai.core.errors import InputError
 from moyai.core.kinds import groups_of, kind_of_result, structure_kinds
 from moyai.core.results import Result
-from moyai.core.vocabulary import COMMON, FORMER, Vocabulary, VocabularyError
+from moyai.core.vocabulary import COMMON, FORMER, Vocabulary, VocabularyError, former
 from moyai.core.vocabulary_page import page, vocabularies
 from moyai.records.comparison.run import Pairing, compare_result
 from moyai.study.responses import find_response
@@ -78,8 +78,12 @@ def test_studies_and_comparisons_take_unit_and_words_from_the_vocabulary(tmp_pat
 
 def test_a_name_of_earlier_versions_is_answered_by_what_it_is_called(tmp_path: Path) -> None:
     assert not set(FORMER) & set(COMMON)
-    for called in FORMER.values():
-        assert all(name.removeprefix("worst_") in COMMON for name in called.split(" or "))
+    declared = set().union(*(own.variables for own in vocabularies().values()))
+    assert not {name for called in FORMER.values() for name in called.split(" or ")} - declared
+    assert former("steady_anchor_force_high").endswith("is called steady_anchor_horizontal_tension_high")
+    assert former("worst_anchor_uplift").endswith("is called worst_anchor_vertical_tension")
+    assert former("maximum_excursion_of_realisation").endswith("is called largest_offset_by_dof_of_realisation")
+    assert not any(map(former, ("anchor_tension_low", "steady_offset", "worst_utilisation")))
     with pytest.raises(InputError) as caught:
         find_response(plain(), "SWL/frequency/swell/maximum_tension")
     assert "'maximum_tension' of earlier versions is called line_tension_maximum" in caught.value.fault.remedy

@@ -62,7 +62,7 @@ def dataset(headings=(0.0, 90.0, 180.0, 270.0), *, damped=True, seed=0):
 
 
 def loads(data, **options):
-    return WaveLoads.from_dataset(data, displaced_volume=1.5, rest=(0.0, 0.0, -1.0), **options)
+    return WaveLoads.from_dataset(data, displaced_volume=1.5, equilibrium_position=(0.0, 0.0, -1.0), **options)
 
 
 def body(wave_loads, **changes):
@@ -138,7 +138,7 @@ def test_a_turned_body_feels_the_wave_from_its_own_heading() -> None:
     for turn in (0.0, math.radians(60.0)):
         omega = 1.1
         wave = WaveComponents([omega], [0.2], [0.0], [turn + math.radians(30.0)], [omega**2 / GRAVITY], WATER)
-        carrier = body(loads(data, rest_yaw=turn), rotation=(0.0, 0.0, turn)).carrier(WATER, Flow(waves=wave))
+        carrier = body(loads(data, equilibrium_yaw=turn), rotation=(0.0, 0.0, turn)).carrier(WATER, Flow(waves=wave))
         rows = run(carrier, 6.0, 0.05)
         c, s = math.cos(turn), math.sin(turn)
         ends.append((c * rows[-1, 1] + s * rows[-1, 2], -s * rows[-1, 1] + c * rows[-1, 2], rows[-1, 3]))
@@ -168,7 +168,7 @@ def test_what_coefficients_lack_is_named() -> None:
             loads(changed)
         assert reported in str(caught.value)
     with pytest.raises(InputError, match="displaced volume"):
-        WaveLoads.from_dataset(data, displaced_volume=-1.0, rest=(0, 0, 0))
+        WaveLoads.from_dataset(data, displaced_volume=-1.0, equilibrium_position=(0, 0, 0))
     far = WaveComponents([20.0], [0.1], [0.0], [0.0], [40.0], WATER)
     with pytest.raises(InputError, match="meet coefficients of"):
         body(loads(data)).carrier(WATER, Flow(waves=far))

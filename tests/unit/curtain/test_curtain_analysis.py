@@ -30,7 +30,7 @@ from moyai.structures.curtain.run import run
 from moyai.structures.curtain.seas.cycles_of_sea import SeaCycles
 from moyai.structures.curtain.seas.loads import drag_curve
 from moyai.structures.curtain.statics.steady_load import QUANTITIES
-from moyai.structures.curtain.variables import VARIABLES
+from moyai.structures.curtain.variables import VOCABULARY
 
 PAPERS = Path(__file__).parents[3] / "src" / "moyai" / "reproduce" / "cases"
 SMALL = """moyai: 1
@@ -89,7 +89,7 @@ def test_layout_page_names_what_is_written(small):
             assert f"`{name}`" in page or str(name) in spoken or f"{name}" in page, (node.path, name)
         for name in dataset.data_vars:
             if dataset[name].dtype.kind == "f":
-                assert name in VARIABLES, (node.path, name)
+                assert name in VOCABULARY, (node.path, name)
 
 
 def test_statics_group_is_the_library_at_both_ends_of_the_drag(small):
@@ -97,7 +97,7 @@ def test_statics_group_is_the_library_at_both_ends_of_the_drag(small):
     unit = assemble(problem, "SWL", 0.0)
     data = result.tree["SWL/statics"]
     assert data["drag_coefficient"].values == pytest.approx([0.8 * 1.3, 1.3, 1.4 * 1.3])
-    for name in ("cable_tension", "section_load", "flare", "anchor_force"):
+    for name in ("cable_tension", "section_load", "flare", "anchor_horizontal_tension"):
         assert np.all(np.diff(data[name].values) > 0.0), name
     assert np.all(np.diff(data["effective_depth"].values) < 0.0)
     given = data.to_dataset().sel(drag_case="given")
@@ -137,10 +137,10 @@ def test_load_table_adds_up(small):
             more = float(row[f"impact_{end}"])
         assert float(row["governing_load"]) == pytest.approx(float(row[f"steady_{end}"]) + more, rel=1e-12)
         expected = float(row["governing_load"]) * float(row["safety_factor"]) / float(row["capacity"])
-        assert float(row["utilisation"]) == pytest.approx(expected, rel=1e-12)
+        assert float(row["factored_utilisation"]) == pytest.approx(expected, rel=1e-12)
     assert math.isnan(float(table.sel(component="lower cable")["steady_load"]))
     assert np.nanmax(np.abs(steady)) > 0.0 and np.nanmax(wave) > 0.0 and np.nanmax(hit) > 0.0
-    worst = str(table["component"].values[int(np.nanargmax(table["utilisation"].values))])
+    worst = str(table["component"].values[int(np.nanargmax(table["factored_utilisation"].values))])
     assert table.attrs["governing_component"] == worst
     assert np.isfinite(governing[0])
 
@@ -184,7 +184,7 @@ def test_limit_height_is_where_a_component_is_used_up(small):
     assert float(limits["speed_limit"]) > 0.0
     # more current, less wave
     assert np.all(np.diff(limits["limit_height"].values) <= 1e-6)
-    grid = limits["limit_utilisation"].values
+    grid = limits["limit_factored_utilisation"].values
     assert np.all(np.diff(grid, axis=1)[np.isfinite(grid[:, 1:])] >= -1e-9)
 
 
@@ -209,7 +209,7 @@ def test_drag_curve_is_the_statics_between_its_points(small):
         found = curve.at(float(speed))
         assert found.upper_cable == pytest.approx(statics.upper_tension, rel=3e-3)
         assert found.line_load == pytest.approx(statics.section.load, rel=3e-3)
-        assert found.anchor_line == pytest.approx(statics.anchor_line_tension, rel=3e-3)
+        assert found.anchor_line == pytest.approx(statics.anchor_tension, rel=3e-3)
 
 
 def test_waves_along_the_normal_load_a_curtain_in_an_oblique_current_by_their_own_direction(tmp_path):
@@ -324,7 +324,7 @@ def test_anchor_loads_of_the_field_paper(tmp_path):
     assert rules == pytest.approx([5.508 * 0.25, 5.508 * 0.5, 5.508])
     table = result.tree["SWL/loads"].to_dataset().sel(component="anchor line")
     # lines on both sides: the tight one bears half of the current
-    force = assemble(problem, "SWL", 0.0).statics.anchor_line_tension
+    force = assemble(problem, "SWL", 0.0).statics.anchor_tension
     assert float(table["steady_load"]) == pytest.approx(13.7e3 + 0.5 * force, rel=1e-3)
 
 
@@ -343,8 +343,13 @@ def test_irregular_sea_has_snaps_and_a_law(tmp_path):
     assert peaks.size > 30 and np.all(np.diff(peaks) <= 0.0) and np.all(np.diff(share) > 0.0)
     tops = sea["realisation_tension"].values
     assert tops.size == 5 and peaks[0] == pytest.approx(tops.max(), rel=1e-6)
-    assert float(sea["maximum_tension"]) == pytest.approx(tops.mean(), rel=1e-12)
-    assert float(sea["maximum_tension_low"]) == tops.min() < tops.max() == float(sea["maximum_tension_high"])
+    assert float(sea["both_cables_tension_maximum"]) == pytest.approx(tops.mean(), rel=1e-12)
+    assert (
+        float(sea["both_cables_tension_maximum_low"])
+        == tops.min()
+        < tops.max()
+        == float(sea["both_cables_tension_maximum_high"])
+    )
     fitted = sea["fitted_exceedance"].values
     above = peaks > float(sea["weibull_threshold"])
     assert np.max(np.abs(fitted[above] - share[above] / share[above][-1])) < 0.15
@@ -371,7 +376,7 @@ def test_skirt_on_the_bed_says_what_is_assumed(tmp_path):
     assert float(statics["toe_gap"]) == 0.0 and float(statics["toe_depth"]) == pytest.approx(8.0, abs=1e-9)
     assert float(statics["hanging_length"]) < 8.6
     # the cables carry the top's share only: twice the tension's downstream part is that share over the span
-    assert float(statics["anchor_force"]) < 1.02 * float(statics["top_load"]) * 12.0
+    assert float(statics["anchor_horizontal_tension"]) < 1.02 * float(statics["top_load"]) * 12.0
     assert any(notice.code == "curtain-on-bed" for notice in result.notices)
     text = text.replace("[statics, impact]", "[statics]")
     faster = run(problem_of(tmp_path, text.replace("speed: 0.1 m/s", "speed: 0.4 m/s")))
@@ -497,7 +502,8 @@ def test_every_model_of_waves_is_judged_at_its_own_end(value, other):
         {
             "steady_load": 10e3, "steady_high": 12e3, "wave_load": value - 10e3, "second_wave_load": other - 10e3,
             "governing_load": value, "governing": "steady and wave", "wave_source": "energy model, storm",
-            "second_wave_source": "slack and taut cycles, storm", "utilisation": value / 200e3, "load_bound": "",
+            "second_wave_source": "slack and taut cycles, storm", "factored_utilisation": value / 200e3,
+            "load_bound": "",
             "capacity": 200e3,
         }
     )  # fmt: skip
@@ -571,7 +577,7 @@ def test_a_chord_that_is_given_bends_no_skirt_in_a_weaker_current(small):
 
 
 def test_cycles_are_judged_at_the_upper_end_of_the_drag_too():
-    names = ("maximum_tension", "maximum_tension_low", "maximum_tension_high")
+    names = ("both_cables_tension_maximum", "both_cables_tension_maximum_low", "both_cables_tension_maximum_high")
     sea = xr.Dataset({name: ("period", [7.0, 6.0]) for name in names})
     found = SeaCycles.of(sea.assign(strong_drag_tension=8.4))
     assert (found.top, found.judged) == (7.0, 8.4) and found.of_strong_drag == pytest.approx(1.2)

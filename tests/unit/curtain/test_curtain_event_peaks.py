@@ -134,7 +134,8 @@ def groups_of(samples: list[EventSample], capacity: float, bound: str) -> dict[s
     data["run_of"] = ("run", [events[name] for name in runs])
     value = event_peak(samples, "storm", "upper cable").value
     row = {
-        "governing_load": value, "utilisation": 3.0 * value / capacity, "capacity": capacity, "safety_factor": 3.0,
+        "governing_load": value, "factored_utilisation": 3.0 * value / capacity, "capacity": capacity,
+        "safety_factor": 3.0,
         "governing": "dynamic", "dynamic_source": "storm", "load_bound": bound, "load_unit": "N", "steady_load": 2e3,
         "wave_load": 20e3, "impact_load": 90e3,
     }  # fmt: skip
@@ -269,11 +270,12 @@ def joint_row(**more: float | str) -> list[dict[str, float | str]]:
     row: dict[str, float | str] = {
         "component": "upper cable", "capacity": 100e3, "steady_low": 1e3, "steady_load": 1.8e3, "steady_high": 2e3,
         "governing_load": 8.1e3, "governing_high": 8.8e3, "governing": "dynamic", "load_bound": "", "wave_source": "",
-        "utilisation": 0.24, "utilisation_high": 0.27,
+        "factored_utilisation": 0.24, "factored_utilisation_high": 0.27,
     }  # fmt: skip
     joint = {"component": "joint", "capacity": 15e3, "steady_load": 0.8e3, "governing_load": 1.07e3,
              "governing_high": 1.1e3, "governing": "steady and wave", "load_bound": "at most",
-             "wave_source": "drag under the crest, storm", "utilisation": 0.2, "utilisation_high": 0.2}  # fmt: skip
+             "wave_source": "drag under the crest, storm",
+             "factored_utilisation": 0.2, "factored_utilisation_high": 0.2}  # fmt: skip
     return [row | more, row | joint]
 
 
@@ -283,7 +285,7 @@ def test_a_drag_without_snaps_bounds_no_joint_of_a_span_that_moves():
     unit = SimpleNamespace(curtain=SimpleNamespace(strengths=strengths))
     cable, joint = _with_joint(unit, joint_row())
     assert joint["governing_load"] == joint["governing_high"] == cable["governing_high"]
-    assert joint["load_bound"] == "at most" and joint["utilisation"] == pytest.approx(3.0 * 8.8 / 15.0)
+    assert joint["load_bound"] == "at most" and joint["factored_utilisation"] == pytest.approx(3.0 * 8.8 / 15.0)
     _, joint = _with_joint(unit, joint_row(load_bound="at least"))
     assert math.isnan(joint["governing_load"]) and joint["load_bound"] == ""
     # where no span moves, the drag is what the joint bears

@@ -72,11 +72,11 @@ def test_the_tight_line_is_that_of_two_springs(force: float) -> None:
 def test_lines_with_a_pretension_share_the_current_and_pull_the_floats_down(tmp_path: Path) -> None:
     plain = run(tmp_path, "statics", current=CURRENT, toe="free")
     pulled = run(tmp_path, "statics", current=CURRENT, toe="free", pretension="8 kN")
-    force = headline(plain, "anchor_load").value
+    force = headline(plain, "anchor_tension").value
     assert 0.0 < force < 16e3
-    assert headline(pulled, "anchor_load").value == pytest.approx(8e3 + 0.5 * force, rel=1e-6)
-    band = headline(pulled, "anchor_load").band
-    assert 8e3 < band.low < headline(pulled, "anchor_load").value < band.high
+    assert headline(pulled, "anchor_tension").value == pytest.approx(8e3 + 0.5 * force, rel=1e-6)
+    band = headline(pulled, "anchor_tension").band
+    assert 8e3 < band.low < headline(pulled, "anchor_tension").value < band.high
     # both lines at slack water, 9 m over 40 m
     more = 16e3 * 9.0 / 40.0 / 20.0 / 980.0
     assert headline(plain, "float_reserve").value - headline(pulled, "float_reserve").value == pytest.approx(more)
@@ -129,15 +129,17 @@ def test_a_held_curtain_without_a_current_snaps_as_it_drifts(tmp_path: Path) -> 
     table = next(group for group in still.tree.subtree if group.path.endswith("weaker_currents"))
     speeds = table["weaker_current"].values
     assert speeds.min() > 0.0 and len(speeds) > 1
-    alone = headline(still, "anchor_load").value
-    end = headline(still, "anchor_load").band.high
+    alone = headline(still, "anchor_tension").value
+    end = headline(still, "anchor_tension").band.high
     for speed in (0.01, speeds[0]):
         moving = run(tmp_path, "statics, waves", waves=WAVES, current=CURRENT.replace("0.3 m/s", f"{speed:.17g} m/s"))
         # a current weaker than the drift changes nothing but its own steady part
-        assert headline(moving, "anchor_load").value == pytest.approx(alone, rel=0.02)
-        assert headline(moving, "anchor_load").band.high == pytest.approx(end, rel=0.05)
+        assert headline(moving, "anchor_tension").value == pytest.approx(alone, rel=0.02)
+        assert headline(moving, "anchor_tension").band.high == pytest.approx(end, rel=0.05)
     own = next(group for group in moving.tree.subtree if group.path.endswith("waves/daily"))
-    assert float(table["maximum_tension"][0, 0]) == pytest.approx(float(own["maximum_tension"].max()), rel=1e-9)
+    assert float(table["both_cables_tension_maximum"][0, 0]) == pytest.approx(
+        float(own["both_cables_tension_maximum"].max()), rel=1e-9
+    )
 
 
 @pytest.mark.slow

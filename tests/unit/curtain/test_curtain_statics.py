@@ -72,8 +72,8 @@ def test_stiff_toe_joins_cable_and_rigid_wall() -> None:
         cable = solve_cable(20.0, curtain.length, load, 3e6)
         assert found.section.load == pytest.approx(load, rel=1e-8)
         assert found.plan.tension == pytest.approx(float(cable.tension), rel=1e-6)
-        assert found.anchor_force == pytest.approx(2.0 * float(cable.downstream_end_force), rel=1e-6)
-        assert found.end_anchor_force == pytest.approx(float(cable.tension), rel=1e-6)
+        assert found.anchor_horizontal_tension == pytest.approx(2.0 * float(cable.downstream_end_force), rel=1e-6)
+        assert found.end_anchor_horizontal_tension == pytest.approx(float(cable.tension), rel=1e-6)
         assert found.toe_speed == pytest.approx(speed * 12.0 / (12.0 - depth), rel=1e-8)
 
 
@@ -82,7 +82,7 @@ def test_split_between_the_cables_and_the_floats_balance() -> None:
         found = solve_statics(replace(CURTAIN, toe=toe), SITE.current(0.3), 0.2, 0.0, WATER, passing_fraction=1.0)
         assert found.upper_tension + found.lower_tension == pytest.approx(found.plan.tension, rel=1e-12)
         assert (found.lower_tension == 0.0) == (toe == "free")
-        anchors = found.anchor_line_tension * math.sin(CURTAIN.anchor_slope) / CURTAIN.span
+        anchors = found.anchor_tension * math.sin(CURTAIN.anchor_slope) / CURTAIN.span
         total = CURTAIN.floats.weight + found.section.top_pull + anchors + found.float_reserve
         assert total == pytest.approx(980.0, rel=1e-12)
         assert found.toe_gap + found.section.toe_depth == pytest.approx(12.0, rel=1e-12)
@@ -129,7 +129,7 @@ def test_limit_of_the_waves_is_where_the_anchor_is_full() -> None:
         limit = height_limit(CURTAIN, SITE, REQUIRED, WAVES, speed=speed, highest=3.0)
         assert limit.governing in ("anchor", "anchor line")
         statics = SITE.statics(CURTAIN, speed)
-        rise = WAVES.tension(limit.value, speed, statics.anchor_line_tension, WATER)
+        rise = WAVES.tension(limit.value, speed, statics.anchor_tension, WATER)
         assert max(utilisation(afloat(speed), REQUIRED, rise).values()) == pytest.approx(1.0, abs=1e-6)
     table = operating_limits(CURTAIN, SITE, REQUIRED, WAVES, speeds=(0.05, 0.1, 2.0), highest=3.0)
     heights = [row[1].value for row in table]
@@ -153,7 +153,7 @@ def test_floats_drown_where_the_anchor_lines_pull_them_under() -> None:
     diameter = math.sqrt(4.0 * steep.floats.buoyancy / (WATER.density * WATER.gravity) / math.pi)
     drag = 0.5 * WATER.density * 1.2 * speed**2 * diameter
     statics = SITE.statics(steep, speed)
-    pulled = drag / statics.section.load * statics.anchor_force * math.tan(steep.anchor_slope) / steep.span
+    pulled = drag / statics.section.load * statics.anchor_horizontal_tension * math.tan(steep.anchor_slope) / steep.span
     # nearly awash, the last of a round float goes under by itself: its draught grows faster than its buoyancy
     assert 0.9 * pulled < left <= pulled
     # without that drag they drown in a stronger current

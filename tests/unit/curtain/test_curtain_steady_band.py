@@ -109,7 +109,7 @@ def test_drag_of_the_floats_goes_into_cables_and_anchors():
     steady = load_of(curtain, 0.3)
     plain = steady.governing
     more = SteadyState("more", plain.statics, 0.1 * plain.quantity("line_load"))
-    for name in ("line_load", "cable_tension", "upper_tension", "anchor_force", "anchor_line_tension"):
+    for name in ("line_load", "cable_tension", "upper_tension", "anchor_horizontal_tension", "anchor_tension"):
         assert more.quantity(name) == pytest.approx(1.1 * plain.quantity(name), rel=1e-12)
     assert more.quantity("sheet_tension") == plain.quantity("sheet_tension")
     # half of a round float's buoyancy in use: its draught is its radius

@@ -395,7 +395,9 @@ def test_whole_curtain_is_the_same_in_both_sizes(tmp_path):
         for name in ("steady_load", "wave_load", "impact_load", "governing_load", "capacity"):
             one, two = (float(group[name].values[row]) for group in loads)
             assert scaled.scale.to_prototype(two, str(unit)) == pytest.approx(one, rel=1e-9, nan_ok=True)
-    assert loads[1]["utilisation"].values == pytest.approx(loads[0]["utilisation"].values, rel=1e-9, nan_ok=True)
+    assert loads[1]["factored_utilisation"].values == pytest.approx(
+        loads[0]["factored_utilisation"].values, rel=1e-9, nan_ok=True
+    )
 
 
 def test_viscosity_stays_that_of_the_water(tmp_path):

@@ -75,7 +75,7 @@ def test_curtain_statics_scale_to_rounding(length: float, density: float, gravit
     current = power_law(scale.to_model(0.3, "m/s"), 1 / 7, 0.2, small_sea)
     small = solve_statics(scale_curtain(curtain, scale), current, 0.2, 0.0, small_sea, passing_fraction=1.0)
     for name, unit in (
-        ("anchor_force", "N"),
+        ("anchor_horizontal_tension", "N"),
         ("upper_tension", "N"),
         ("float_reserve", "N/m"),
         ("toe_gap", "m"),

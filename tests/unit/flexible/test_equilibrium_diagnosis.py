@@ -1,4 +1,4 @@
-"""Statics that leads by dynamic relaxation, and why a network has no rest."""
+"""Statics that leads by dynamic relaxation, and why a network has no equilibrium."""
 
 from __future__ import annotations
 

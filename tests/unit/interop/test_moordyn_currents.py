@@ -81,10 +81,10 @@ def test_a_deck_runs_with_it_and_is_pushed_by_it(tmp_path, kind, name, text):
     tree = read_result(tmp_path / "out" / "results.nc").tree
     series = tree["SWL/time/current"].to_dataset()
     assert float(series["time"][-1]) == pytest.approx(40.0)
-    load = series["load"].sel(point=["point 1", "point 2"]).isel(time=-1).values[:, 0].sum()
+    load = series["point_load"].sel(point=["point 1", "point 2"]).isel(time=-1).values[:, 0].sum()
     # the drag of the wire at 1 m/s, less half a segment at either end
     assert abs(load) == pytest.approx(0.5 * 1025.0 * 1.2 * 0.1 * 9.0 * 1.0**2, rel=0.12)
-    early = series["load"].sel(point=["point 1", "point 2"]).sel(time=10.0, method="nearest").values[:, 0].sum()
+    early = series["point_load"].sel(point=["point 1", "point 2"]).sel(time=10.0, method="nearest").values[:, 0].sum()
     assert 0.2 < abs(early / load) < 0.4  # a quarter by the square of the speed, and the inertia of a rising current
 
 

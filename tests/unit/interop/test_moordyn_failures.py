@@ -52,13 +52,13 @@ def test_it_is_read_written_and_run(tmp_path):
     ran = CliRunner().invoke(app, command)
     assert ran.exit_code == 0, ran.output
     series = read_result(tmp_path / "out" / "results.nc").tree["SWL/time/still water"].to_dataset()
-    pull = series["load"].sel(point="point 2").values
+    pull = series["point_load"].sel(point="point 2").values
     time = series["time"].values
     assert abs(pull[time < 3.9, 0]).min() > 5e3
     # the rest of line 2 hangs on its anchor by its own weight; the clump hangs on line 1 alone
     weight = (3.0 - 1025.0 * 0.25 * 3.14159265 * 0.05**2) * 9.80665 * 28.0
     assert abs(pull[-1]).max() < 2.0 * weight
-    other = abs(series["load"].sel(point="point 1").values[-1, 2])
+    other = abs(series["point_load"].sel(point="point 1").values[-1, 2])
     assert other == pytest.approx((2000.0 - 205.0) * 9.80665 + weight, rel=0.2)
 
 

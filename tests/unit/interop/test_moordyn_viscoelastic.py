@@ -55,7 +55,7 @@ def test_it_is_read_written_and_rests_on_its_static_stiffness(tmp_path):
     ran = CliRunner().invoke(app, [*command, "-o", str(tmp_path / "out"), "--no-report"])
     assert ran.exit_code == 0, ran.output
     tree = read_result(tmp_path / "out" / "results.nc").tree
-    pull = tree["SWL/time/still water"].to_dataset()["load"].sel(point="point 2").values[:, 0]
+    pull = tree["SWL/time/still water"].to_dataset()["point_load"].sel(point="point 2").values[:, 0]
     # quick: the dynamic stiffness at the tension of rest; it then gives way over DAMPING / SLOW = 2.4 s
     fast = 1.586e8 + 0.4 * 1.424e6
     assert abs(pull).max() > 1.424e6 + 0.85 * fast * 0.005

@@ -165,7 +165,7 @@ def test_equilibrium_balances_load_lines_and_hydrostatics(seed: int) -> None:
     system = random_system(seed)
     hydrostatic = np.diag([0, 0, 1e6, 1e7, 1e7, 0.0])
     load = rng.normal(size=6) * [3e4, 3e4, 3e4, 3e4, 3e4, 2e4]
-    found = system.equilibrium(load, hydrostatic, subtract_rest_force=True)
+    found = system.equilibrium(load, hydrostatic, subtract_equilibrium_force=True)
     imbalance = system.forces(found.position) - system.forces(np.zeros(6)) + load - hydrostatic @ found.position
     assert np.abs(imbalance).max() < 1e-6 * np.abs(load).max()
     assert found.iterations < 40

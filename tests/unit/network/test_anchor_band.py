@@ -43,11 +43,13 @@ def _run(folder: Path, segments: int, check: str) -> moyai.Result:
 def test_the_pull_of_the_finer_mesh_is_that_of_a_run_on_it(tmp_path: Path) -> None:
     own, finer = (_run(tmp_path, *how) for how in ((8, "auto"), (16, "off")))
     summary, other = (found.tree["SWL/dynamic"].to_dataset().sel(point="anchor") for found in (own, finer))
-    assert float(summary["load_double_mesh"][0]) == pytest.approx(float(other["load_peak"][0]), rel=5e-3)
+    assert float(summary["point_load_double_mesh"][0]) == pytest.approx(float(other["point_load_maximum"][0]), rel=5e-3)
     # a line of one end at the anchor pulls there as its first bar does
-    assert float(summary["load_half_step"][0]) == pytest.approx(float(summary["load_peak"][0]), rel=1e-2)
-    (pull,) = [number for number in own.headlines if number.name == "anchor_load" and number.shown]
-    ends = [float(summary[name][0]) for name in ("load_peak", "load_half_step", "load_double_mesh")]
+    assert float(summary["point_load_half_step"][0]) == pytest.approx(float(summary["point_load_maximum"][0]), rel=1e-2)
+    (pull,) = [number for number in own.headlines if number.name == "point_load" and number.shown]
+    ends = [
+        float(summary[name][0]) for name in ("point_load_maximum", "point_load_half_step", "point_load_double_mesh")
+    ]
     ends.append(2.0 * ends[2] - ends[0])
     assert pull.band is not None
     # eight segments are few: the band reaches as far as that of the tension too
@@ -64,13 +66,18 @@ def test_the_chance_of_a_record_is_that_of_the_pull(motion: str) -> None:
         load = 5.0 + 3.5 * np.sin(2.0 * np.pi * time / 4.0)
     series = xr.Dataset(
         {
-            "highest_load": (("time", "point", "measure"), load[:, None, None]),
+            "point_load_peak_since_row": (("time", "point", "measure"), load[:, None, None]),
             "line_tension_peak_since_row": (("time", "line"), 8.0 * load[:, None]),
         },
         coords={"time": time, "point": ["anchor"], "measure": ["size"], "line": ["rope"]},
         attrs={"skip": 0.0, "period": 4.0, "irregular": int(irregular)},
     )
-    pulls = {"load_half_step": 9.0, "load_double_mesh": 8.0, "load_damped": np.nan, "load_finest": np.nan}
+    pulls = {
+        "point_load_half_step": 9.0,
+        "point_load_double_mesh": 8.0,
+        "point_load_damped": np.nan,
+        "point_load_finest": np.nan,
+    }
     summary = xr.Dataset(
         {name: (("run", "point"), [[value]]) for name, value in pulls.items()},
         coords={"run": ["storm"], "point": ["anchor"], "line": ["rope"]},
@@ -99,7 +106,7 @@ def test_the_pull_of_a_snap_whose_mesh_was_not_checked_is_at_least(irregular: in
     load = np.abs(np.random.default_rng(4).normal(5.0, 1.0, time.size))
     series = xr.Dataset(
         {
-            "highest_load": (("time", "point", "measure"), load[:, None, None]),
+            "point_load_peak_since_row": (("time", "point", "measure"), load[:, None, None]),
             "line_tension_peak_since_row": (("time", "line"), 8.0 * load[:, None]),
         },
         coords={"time": time, "point": ["anchor"], "measure": ["size"], "line": ["rope"]},
@@ -108,7 +115,11 @@ def test_the_pull_of_a_snap_whose_mesh_was_not_checked_is_at_least(irregular: in
     for doubt, checked, bound in (("a slack line snaps taut", False, "at least"), ("", False, "at least"),
                                   ("a slack line snaps taut", True, "")):  # fmt: skip
         summary = xr.Dataset(
-            {name: (("run", "point"), [[8.6]]) for name in ("load_half_step", "load_double_mesh") if checked},
+            {
+                name: (("run", "point"), [[8.6]])
+                for name in ("point_load_half_step", "point_load_double_mesh")
+                if checked
+            },
             coords={"run": ["storm"], "point": ["anchor"], "line": ["rope"]},
             attrs={"governing storm": "rope", "doubt storm": doubt},
         )

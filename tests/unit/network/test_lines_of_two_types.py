@@ -69,7 +69,7 @@ def groups(light: np.ndarray, heavy: np.ndarray, pull: np.ndarray) -> dict[str, 
         {
             "line_tension_peak_since_row": (("time", "line"), np.maximum(light, heavy)[:, None]),
             "stretch_tension": (("time", "stretch"), np.stack([light, heavy], axis=1)),
-            "highest_load": (("time", "point", "measure"), pull[:, None, None]),
+            "point_load_peak_since_row": (("time", "point", "measure"), pull[:, None, None]),
         },
         coords={
             "time": time, "line": ["line"], "stretch": ["line stretch 1", "line stretch 2"], "point": ["anchor"],
@@ -84,7 +84,7 @@ def groups(light: np.ndarray, heavy: np.ndarray, pull: np.ndarray) -> dict[str, 
         },
         coords={"point": ["anchor"]},
     )  # fmt: skip
-    summary = xr.Dataset({"snaps": (("run", "line"), [[0.0]])}, coords={"run": ["storm"], "line": ["line"]})
+    summary = xr.Dataset({"snap_count": (("run", "line"), [[0.0]])}, coords={"run": ["storm"], "line": ["line"]})
     return {"/SWL/time/storm": series, "/SWL/network": network, "/SWL/dynamic": summary}
 
 

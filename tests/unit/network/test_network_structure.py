@@ -155,7 +155,7 @@ def test_stiffness_at_a_driven_point_is_the_slope_of_its_pull(tmp_path):
     pull = {}
     for shift in (-0.02, 0.02):
         text = line_case().replace("43.9425 m", f"{43.9425 + shift} m")
-        load = run(problem_of(text, tmp_path)).tree["SWL/statics"]["load"]
+        load = run(problem_of(text, tmp_path)).tree["SWL/statics"]["point_load"]
         pull[shift] = load.sel(point="fairlead").values[0]
     slope = -(pull[0.02] - pull[-0.02]) / 0.04
     assert np.allclose(slope, stiffness[:, 0], rtol=0.02, atol=0.01 * abs(stiffness[0, 0]))
@@ -232,7 +232,7 @@ def test_a_run_that_blows_up_says_so_and_keeps_its_last_good_state(tmp_path):
     # what came after the last good state is no peak: the rope bears 41 kN in this motion when its step is stable
     summary = result.tree["SWL/dynamic"].to_dataset(inherit=False)
     assert float(summary["line_tension_maximum"].max()) < 1e5
-    assert float(summary["load_peak"].max()) < 1e5
+    assert float(summary["point_load_maximum"].max()) < 1e5
 
 
 def test_nothing_to_rest_on_is_told_and_nothing_is_run(tmp_path):
@@ -338,7 +338,7 @@ analyses: [statics]
     assert np.abs(place[:2]).max() < 1e-3
     assert np.abs(rest["solid_angle"].values).max() < 1e-4
     # weight, pulls and half a bar at each point against the displaced water of the wet part
-    pull = float(rest["load"].sel(axis="z", point=["west", "east"]).sum())
+    pull = float(rest["point_load"].sel(axis="z", point=["west", "east"]).sum())
     half_bars = 2.0 * 0.5 * 4.0 * (9.0 - 1025.0 * math.pi / 4.0 * 0.04**2) * 9.81
     draught = 1.0 - place[2]
     assert 20e3 * 9.81 - pull + half_bars == pytest.approx(1025.0 * 9.81 * 24.0 * draught, rel=1e-4)
@@ -376,10 +376,18 @@ def test_loads_on_points_hold_what_a_snap_pulls_between_two_rows(tmp_path):
         result = run(problem_of(line_case(analyses="[dynamic]", settings=settings), tmp_path))
         summary = result.tree["SWL/dynamic"].to_dataset(inherit=False).isel(run=0)
         found[rows] = summary
-        assert float(summary["load_peak"].sel(point="anchor")) == pytest.approx(float(summary["start_peak"][0]), 1e-9)
+        assert float(summary["point_load_maximum"].sel(point="anchor")) == pytest.approx(
+            float(summary["start_peak"][0]), 1e-9
+        )
         assert float(summary["line_tension_maximum"][0]) >= float(summary["end_peak"][0])
     fine, coarse = found["20 ms"], found["0.2 s"]
-    for key in ("line_tension_maximum", "start_peak", "end_peak", "load_peak", "load_horizontal"):
+    for key in (
+        "line_tension_maximum",
+        "start_peak",
+        "end_peak",
+        "point_load_maximum",
+        "point_horizontal_load_maximum",
+    ):
         np.testing.assert_allclose(coarse[key], fine[key], rtol=2e-2, err_msg=key)
     assert any(notice.code == "rows-too-far-apart" for notice in result.notices)
 

@@ -31,7 +31,7 @@ def test_a_seed_with_snaps_is_at_least(
     peak = float(load.max())
     summary = xr.Dataset(
         {
-            "snaps": (("run", "line"), [[snaps]]),
+            "snap_count": (("run", "line"), [[snaps]]),
             "line_tension_of_check": (("run", "line", "check"), [[[peak, peak, peak, np.nan, np.nan]]]),
         },
         coords={"run": ["storm"], "line": ["chain"]},

@@ -65,10 +65,10 @@ def test_each_realisation_is_the_run_of_its_seed(found: Result) -> None:
     alone = _storm(run(again))
     assert "line_tension_maximum_of_realisation" not in alone
     np.testing.assert_allclose(tension.isel(member=2).values, alone["line_tension_maximum"].values, rtol=2e-3)
-    load = dynamic["load_of_realisation"].isel(member=2).sel(measure="size").values
-    np.testing.assert_allclose(load, alone["load_peak"].values, rtol=2e-3)
-    excursion = dynamic["excursion_of_realisation"].isel(member=2).values
-    np.testing.assert_allclose(excursion, alone["excursion"].values, rtol=1e-3, atol=1e-9)
+    load = dynamic["point_load_maximum_of_realisation"].isel(member=2).sel(measure="size").values
+    np.testing.assert_allclose(load, alone["point_load_maximum"].values, rtol=2e-3)
+    excursion = dynamic["point_excursion_of_realisation"].isel(member=2).values
+    np.testing.assert_allclose(excursion, alone["point_excursion"].values, rtol=1e-3, atol=1e-9)
 
 
 @pytest.mark.slow
@@ -137,7 +137,7 @@ criteria: {greatest_tension: 150 N}
 def test_a_net_without_points_has_realisations_of_its_tension() -> None:
     dynamic = _storm(run(NET))
     assert dynamic["net_tension_maximum_of_realisation"].sel(net="wall").size == 2
-    assert "load_of_realisation" not in dynamic
+    assert "point_load_maximum_of_realisation" not in dynamic
 
 
 @pytest.mark.slow

@@ -34,10 +34,10 @@ def test_pull_and_offset_at_rest_are_judged(limit: str, outcome: str) -> None:
     result = moyai.run(CASE.replace("LIMIT", limit))
     found = {item.name: item for item in result.headlines if item.shown}
     rest = result.tree["SWL/statics"].sel(condition="current")
-    load = rest["load"].sel(point="anchor").values
-    assert found["anchor_load"].value == pytest.approx(float((load**2).sum() ** 0.5))
+    load = rest["point_load"].sel(point="anchor").values
+    assert found["point_load"].value == pytest.approx(float((load**2).sum() ** 0.5))
     # one line ends at the anchor: what it bears there
-    assert found["anchor_load"].value == pytest.approx(float(rest["start_tension"].sel(line="rode")), rel=1e-6)
+    assert found["point_load"].value == pytest.approx(float(rest["start_tension"].sel(line="rode")), rel=1e-6)
     place = rest["point_position"].sel(point="buoy").values
     assert found["offset"].value == pytest.approx(math.hypot(*place[:2]))
     # a taut line of 40 m in 25 m of water

@@ -70,7 +70,7 @@ def test_the_band_holds_the_elastic_catenary(away: float, segments: int) -> None
     bar = top / float(rest["clear_bars_of_mesh"].sel(line="chain")[-1])
     assert tension.band.low <= top * 1.0005 and 0.9995 * top <= tension.band.high <= 1.012 * top + bar
     assert result.verdict.outcome == "does not hold"
-    assert float(rest["load_of_mesh"][-1]) == pytest.approx(level, rel=0.02)
+    assert float(rest["point_load_of_mesh"][-1]) == pytest.approx(level, rel=0.02)
     coarse = [notice for notice in result.notices if notice.code == "coarse-rest"]
     assert bool(coarse) == (abs(tension.value / top - 1.0) > 0.05) or 0.04 < abs(tension.value / top - 1.0) < 0.06
     assert not coarse or (coarse[0].severity == "warning" and "segments" in coarse[0].remedy)
@@ -104,9 +104,9 @@ def test_a_line_that_lies_on_the_bed_as_a_whole_leaves_the_others_their_mesh() -
     assert found.verdict.outcome == alone.verdict.outcome == "holds"
     rest = [result.tree["SWL/statics"].to_dataset() for result in (alone, found)]
     assert rest[0].sizes["mesh"] == rest[1].sizes["mesh"] < 5
-    pull = next(item for item in found.headlines if item.name == "anchor_load")
+    pull = next(item for item in found.headlines if item.name == "point_load")
     assert pull.bound == "" and pull.value == pytest.approx(
-        next(item for item in alone.headlines if item.name == "anchor_load").value, rel=1e-6
+        next(item for item in alone.headlines if item.name == "point_load").value, rel=1e-6
     )
 
 

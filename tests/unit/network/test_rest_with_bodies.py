@@ -46,7 +46,7 @@ def _numbers(segments: int):
 def test_a_raft_on_four_segments_carries_what_its_mesh_leaves_out() -> None:
     coarse, own = _numbers(4)
     _, finer = _numbers(40)
-    for name in ("line_tension", "anchor_load"):
+    for name in ("line_tension", "point_load"):
         band = own[name].band
         assert band is not None and band.low <= finer[name].value <= band.high, name
     assert own["line_tension"].value < 12.5e3 < 13.7e3 < own["line_tension"].band.high
@@ -58,7 +58,7 @@ def test_a_rest_whose_finer_mesh_is_not_found_keeps_no_limit(monkeypatch: pytest
     monkeypatch.setattr(network_run, "with_finer_meshes", lambda rested, *_: rested)
     result = moyai.run(CASE.replace("SEGMENTS", "4").replace("13 kN", "15 kN"))
     found = {item.name: item for item in result.headlines if item.shown}
-    assert found["line_tension"].bound == found["anchor_load"].bound == "at least"
+    assert found["line_tension"].bound == found["point_load"].bound == "at least"
     assert result.verdict.outcome == "not judged" and "mesh not checked" in result.verdict.message
 
 

@@ -82,7 +82,7 @@ def test_a_current_alone_begins_at_its_rest() -> None:
     tension = float(result.tree["SWL/statics"]["line_tension_maximum"].sel(condition="current", line="rode"))
     found = {item.name: item for item in result.headlines if item.shown}
     assert found["line_tension"].value == pytest.approx(tension, rel=5e-3)
-    assert found["anchor_load"].value == pytest.approx(tension, rel=0.03)
+    assert found["point_load"].value == pytest.approx(tension, rel=0.03)
     assert result.verdict.outcome == "holds"
 
 

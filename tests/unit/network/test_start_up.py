@@ -116,4 +116,4 @@ def test_smooth_and_steady_motions_count_from_the_start() -> None:
 def test_a_motion_that_begins_away_from_its_place_is_a_jerk() -> None:
     away = MotionPlan("c", "harmonic", 10.0, math.inf, amplitude=(1.0, 0.0, 0.0), phase=(0.5 * math.pi, 0.0, 0.0))
     length, rule = start_up(None, [away], 100.0)
-    assert length == pytest.approx(10.0, rel=0.01) and "1 m from its place of rest" in rule
+    assert length == pytest.approx(10.0, rel=0.01) and "1 m from its place at rest" in rule

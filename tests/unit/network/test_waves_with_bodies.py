@@ -59,8 +59,8 @@ def test_six_segments_under_a_raft_are_judged_with_what_their_mesh_leaves_out() 
     tension, finer = _number(coarse, "line_tension"), _number(_result(40, "off"), "line_tension").value
     assert tension.band is not None and tension.bound == ""
     assert tension.value < 15e3 < finer <= tension.band.high
-    pull = _number(coarse, "anchor_load")
-    assert pull.band is not None and pull.band.low <= _number(_result(40, "off"), "anchor_load").value <= pull.band.high
+    pull = _number(coarse, "point_load")
+    assert pull.band is not None and pull.band.low <= _number(_result(40, "off"), "point_load").value <= pull.band.high
     assert coarse.verdict.outcome == "does not hold"
 
 
@@ -69,7 +69,7 @@ def test_a_body_whose_mesh_was_not_checked_keeps_no_limit(monkeypatch: pytest.Mo
     monkeypatch.setattr(dynamics, "finer_is_useful", lambda *_: False)
     for check in ("auto", "off"):
         result = _result.__wrapped__(3, check, "30 kN")
-        assert _number(result, "line_tension").bound == _number(result, "anchor_load").bound == "at least"
+        assert _number(result, "line_tension").bound == _number(result, "point_load").bound == "at least"
         assert result.verdict.outcome == "not judged"
         assert "a sensitivity run checks them" in result.verdict.message
     assert _result.__wrapped__(3, "off", "5 kN").verdict.outcome == "does not hold"

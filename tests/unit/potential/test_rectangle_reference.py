@@ -72,8 +72,8 @@ def test_ordinary_matched_eigenfunctions_tend_to_the_reference(seed, oblique):
     raw = np.abs(levels[-1] - levels[-2]).max()
     reflection, transmission, sway = extrapolated_limit(levels, 4.0 / 3.0)
     # Corners make the plain series converge like modes^(-4/3); the extrapolation leaves a few units of 1e-6
-    assert abs(solution.reflection[0, 0] - reflection) < 1e-5
-    assert abs(solution.transmission[0, 0] - transmission) < 1e-5
+    assert abs(solution.reflection_coefficient[0, 0] - reflection) < 1e-5
+    assert abs(solution.transmission_coefficient[0, 0] - transmission) < 1e-5
     assert raw > 1e-5, "the plain series would have been good enough to need no extrapolation"
     if not oblique:
         own = -(solution.added_mass[0, 0, 0] + 1j * solution.radiation_damping[0, 0, 0] / omega) / water.density
@@ -109,7 +109,7 @@ def test_more_functions_change_nothing(seed):
     for name in ("added_mass", "infinite_frequency_added_mass", "excitation_force"):
         a, b = getattr(few, name), getattr(many, name)
         assert np.abs(a - b).max() < 1e-9 * np.abs(b).max()
-    assert np.abs(few.transmission - many.transmission).max() < 1e-9
+    assert np.abs(few.transmission_coefficient - many.transmission_coefficient).max() < 1e-9
 
 
 def test_basis_transforms_are_the_quadrature_of_the_functions():
@@ -142,7 +142,7 @@ def test_long_waves_and_low_frequencies():
     # slow heave sends long waves; long waves lift with the waterplane and pass
     assert solution.radiation_damping[0, 1, 1] == pytest.approx(0.5 * 1000.0 * 9.0 * math.sqrt(G / 4.0), rel=1e-5)
     assert solution.excitation_force[0, 0, 1] == pytest.approx(1000.0 * G * 3.0, rel=1e-3)
-    assert abs(solution.transmission[0, 0]) == pytest.approx(1.0, abs=1e-5)
+    assert abs(solution.transmission_coefficient[0, 0]) == pytest.approx(1.0, abs=1e-5)
     assert np.allclose(solution.added_mass[0], solution.zero_frequency_added_mass, rtol=1e-4, atol=1e-6)
 
 

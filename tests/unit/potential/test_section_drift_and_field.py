@@ -105,7 +105,7 @@ def test_paper_form_of_the_drift():
     drift = mean_drift_far_field(solution, motions)
     states = solution.normal.states
     energy = 0.5 * DENSITY * GRAVITY * states.group_velocity * states.wave_number / states.omega
-    assert drift.horizontal == pytest.approx(energy * (2.0 * np.abs(drift.reflection) ** 2 + drift.loss))
+    assert drift.horizontal == pytest.approx(energy * (2.0 * np.abs(drift.reflection_coefficient) ** 2 + drift.loss))
 
 
 def test_vertical_drift_and_moment_of_a_submerged_circle():
@@ -165,8 +165,10 @@ def test_field_of_a_heeled_twin_pontoon(depth, lid):
         waves = speed @ solution.normal.radiated_wave[index]
         k = solution.normal.states.wave_number[index]
         ahead, behind = surface_elevation(solution, [far, -far], index, motions=motions)
-        assert ahead == pytest.approx((solution.normal.transmission[index] + waves[1]) * np.exp(1j * k * far), abs=5e-4)
-        back = (solution.normal.reflection[index] + waves[0]) * np.exp(1j * k * far)
+        assert ahead == pytest.approx(
+            (solution.normal.transmission_coefficient[index] + waves[1]) * np.exp(1j * k * far), abs=5e-4
+        )
+        back = (solution.normal.reflection_coefficient[index] + waves[0]) * np.exp(1j * k * far)
         assert behind == pytest.approx(np.exp(-1j * k * far) + back, abs=5e-4)
         assert np.isnan(surface_elevation(solution, [section.waterlines[0][0] + 0.5], index)).all()
 

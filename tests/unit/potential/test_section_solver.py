@@ -204,7 +204,7 @@ def test_oblique_solution_joins_the_normal_one():
     solution = solve(section, water, [0.9, 1.7], modes=rigid_modes((0.0, -0.5)), heading=[0.0, math.radians(0.5)])
     (oblique,) = solution.oblique
     assert oblique.added_mass == pytest.approx(solution.added_mass, rel=3e-4, abs=10.0)
-    assert oblique.transmission == pytest.approx(solution.normal.transmission, abs=3e-4)
+    assert oblique.transmission_coefficient == pytest.approx(solution.normal.transmission_coefficient, abs=3e-4)
     data = solution.dataset
     assert data.added_mass.dims == ("omega", "radiating_dof", "influenced_dof")
     assert data.oblique_added_mass.dims == ("omega", "wave_direction", "radiating_dof", "influenced_dof")

@@ -26,14 +26,14 @@ def test_decay_of_an_integrated_oscillator(seed):
     time = np.arange(0.0, 14.0 * period, period / 60.0)
     motion = solve_ivp(slope, (0.0, time[-1]), (amplitude, 0.0), t_eval=time, rtol=1e-9, atol=1e-12).y[0]
     record = 0.3 + motion + 1e-4 * amplitude * random.normal(size=time.size)
-    found = fit_decay_record(time, record, rest=0.3)
+    found = fit_decay_record(time, record, equilibrium=0.3)
     assert found.decay.period == pytest.approx(period, rel=2e-3)
     assert found.decay.damping_ratio == pytest.approx(zeta, rel=0.06)
     assert found.decay.quadratic_over_inertia == pytest.approx(b, rel=0.12)
     assert found.period_error < 0.01 * period
     guessed = fit_decay_record(time, record)
-    assert guessed.rest == pytest.approx(0.3, abs=0.1 * amplitude)
-    linear = fit_decay_record(time, record, rest=0.3, quadratic=False)
+    assert guessed.equilibrium == pytest.approx(0.3, abs=0.1 * amplitude)
+    linear = fit_decay_record(time, record, equilibrium=0.3, quadratic=False)
     assert linear.decay.damping_ratio > zeta
 
 
@@ -45,7 +45,7 @@ def test_decay_faults():
         fit_decay_record(time, gappy)
     with pytest.raises(InputError, match="extremes"):
         fit_decay_record(time, np.exp(-time))
-    growing = fit_decay_record(time, np.exp(0.02 * time) * np.cos(2.0 * time), start=0.0, rest=0.0)
+    growing = fit_decay_record(time, np.exp(0.02 * time) * np.cos(2.0 * time), start=0.0, equilibrium=0.0)
     assert {notice.code for notice in growing.notices} == {"decay-damping"}
 
 

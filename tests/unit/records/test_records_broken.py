@@ -293,7 +293,7 @@ def test_a_decay_that_still_swings_at_its_end(seed: int) -> None:
     assert abs(found.decay.period / (2 * math.pi / natural / math.sqrt(1 - zeta**2)) - 1.0) < 0.004
     assert abs(found.decay.damping_ratio - zeta) < 0.001
     assert abs(found.decay.quadratic_over_inertia - drag) * first < 0.005
-    assert abs(found.rest - rest) < 0.001 * first
+    assert abs(found.equilibrium - rest) < 0.001 * first
 
 
 def test_a_response_blurred_by_short_segments_is_told() -> None:

@@ -440,6 +440,6 @@ def test_decay_command(tmp_path):
     found = json.loads(done.stdout)
     assert found["period"] == pytest.approx(2.0, rel=1e-3)
     assert found["damping_ratio"] == pytest.approx(0.04, rel=0.02)
-    assert found["rest"] == pytest.approx(math.radians(2.0), abs=2e-3)
+    assert found["equilibrium"] == pytest.approx(math.radians(2.0), abs=2e-3)
     done = runner.invoke(app, ["measure", "decay", str(tmp_path / "d.csv"), "--column", "縦揺れ", "--json"])
     assert done.exit_code == 2 and "横揺れ" in json.loads(done.stdout)["faults"][0]["remedy"]

@@ -65,7 +65,7 @@ def test_first_page_names_the_governing_component(result: Result, document: Docu
     worst = governing_component(water_levels(result))
     assert worst is not None
     level, entry = worst
-    used = max(float(np.nanmax(result.tree[f"/{name}/loads"]["utilisation"])) for name in ("HWL", "LWL"))
+    used = max(float(np.nanmax(result.tree[f"/{name}/loads"]["factored_utilisation"])) for name in ("HWL", "LWL"))
     assert entry.utilisation == pytest.approx(used)
     first = document.sections[0].blocks[0]
     assert isinstance(first, KeyFigures)
@@ -104,7 +104,7 @@ def test_load_table_is_the_result(result: Result, document: Document) -> None:
             shown = float(row[column]) * factor if row[column] else math.nan
             assert shown == pytest.approx(value, rel=1e-6, nan_ok=True), (name, column)
         assert row["Governed by"] == str(loads["governing"].sel(component=name).values)
-    worst = int(np.nanargmax(loads["utilisation"]))
+    worst = int(np.nanargmax(loads["factored_utilisation"]))
     assert table.emphasised == (worst,)
 
 
@@ -217,9 +217,9 @@ def test_map_shows_every_cell(result: Result) -> None:
     drawing = operating_map(level)
     assert drawing is not None
     limits = result.tree["/HWL/limits"]
-    assert drawing.svg.count("<rect") == limits["limit_utilisation"].size
+    assert drawing.svg.count("<rect") == limits["limit_factored_utilisation"].size
     for value, name in zip(
-        limits["limit_utilisation"].values.ravel(), limits["limit_component"].values.ravel(), strict=True
+        limits["limit_factored_utilisation"].values.ravel(), limits["limit_component"].values.ravel(), strict=True
     ):
         assert f"{name}</title>" in drawing.svg
         assert colour(float(value)) in drawing.svg
@@ -264,9 +264,11 @@ def test_figures_hold_the_result(result: Result, document: Document) -> None:
     assert found[:, 1] * 1e3 == pytest.approx(storm["contact_tension_sorted"].values, rel=1e-6)
     models = named(document, Figure, "Tension of both cables by each impact model")[0]
     drawn = np.nansum(np.nan_to_num([item.y for item in models.series]), axis=0)
-    assert drawn * 1e3 == pytest.approx(result.tree["/HWL/impact"]["impact_tension"].values)
+    assert drawn * 1e3 == pytest.approx(result.tree["/HWL/impact"]["both_cables_impact_tension"].values)
     assert len(models.series) == 2, "the model that does not count is distinguished"
-    counted = result.tree["/HWL/impact"]["impact_tension"].values[result.tree["/HWL/impact"]["counts"].values > 0]
+    counted = result.tree["/HWL/impact"]["both_cables_impact_tension"].values[
+        result.tree["/HWL/impact"]["counts"].values > 0
+    ]
     note = named(document, Table, "Impact models")[0].note
     assert f"{counted.max() / counted.min():.2f} times the smallest" in note
     # regular waves and a storm at each water level
@@ -310,9 +312,9 @@ def test_flume_record_is_shown(result: Result) -> None:
                 "cable_peak_tension": ("cable", [9.5, 10.4], {"units": "N"}),
                 "cable_plateau_tension": ("cable", [3.0, 3.3], {"units": "N"}),
                 "cable_impact_tension": ("cable", [6.5, 7.1], {"units": "N"}),
-                "sum_peak_tension": ((), 19.9, {"units": "N"}),
-                "sum_plateau_tension": ((), 6.3, {"units": "N"}),
-                "sum_impact_tension": ((), 13.6, {"units": "N"}),
+                "both_cables_peak_tension": ((), 19.9, {"units": "N"}),
+                "both_cables_plateau_tension": ((), 6.3, {"units": "N"}),
+                "both_cables_impact_tension": ((), 13.6, {"units": "N"}),
                 "cable_noise": ("cable", [0.01, 0.01], {"units": "N"}),
                 **{name: ((), 0.2, {"units": "s"}) for name in ("release_time", "plateau_start", "rise_time")},
                 "peak_missed": ((), 0.0),

@@ -24,7 +24,9 @@ from moyai.report.writer import compose_document
 FACTOR = Criterion(
     "line_safety_factor", "line_utilisation", 0.5, "at most", "case file", "factor of safety", as_factor=True
 )
-UPLIFT = Criterion("greatest_uplift", "anchor_uplift", 5e3, "at most", "case file", "uplift on the anchors", "N")
+UPLIFT = Criterion(
+    "greatest_uplift", "anchor_vertical_tension", 5e3, "at most", "case file", "uplift on the anchors", "N"
+)
 
 
 def plain_result() -> Result:
@@ -36,7 +38,7 @@ def judged(*criteria: Criterion, **kwargs: object) -> Result:
     headlines = (
         Headline("line_tension", "Largest line tension", 1.766e6, "N", "HWL, storm"),
         Headline("line_utilisation", "Load over strength", 2.1, "1", "HWL, storm"),
-        Headline("anchor_uplift", "Uplift on an anchor", 3184.0, "N", "HWL, storm"),
+        Headline("anchor_vertical_tension", "Uplift on an anchor", 3184.0, "N", "HWL, storm"),
     )
     result = plain_result()
     verdict = judge(headlines, criteria, computed=True)
@@ -179,7 +181,7 @@ current: {speed: 0.8 m/s, heading_deg: 0}
 def test_what_is_bought_for_the_judged_end_prints_it_beside_its_number() -> None:
     """49.4 kN, five realisations up to 55.0, judged at 76.2: piles bought for 55 would be too weak."""
     band = Band(38.5e3, 55.0e3, "5 realisations", decides=False, judged=(30e3, 76.2e3), realisations=5)
-    pull = Headline("anchor_horizontal_load", "Pull", 49.4e3, "N", "storm, line a", band=band)
+    pull = Headline("anchor_horizontal_tension", "Pull", 49.4e3, "N", "storm, line a", band=band)
     assert band_text(pull) == "38.5 kN to 76.2 kN, judged 76.2 kN (5 realisations)"
     # an end within the band is named, the number itself is not
     within = replace(pull, band=replace(band, judged=(45e3, 52e3)))
@@ -217,7 +219,7 @@ def test_beside_what_is_not_judged_stands_the_worst_that_is_known() -> None:
     moving, still = (replace(FACTOR, limit=limit, analysis=name) for limit, name in ((0.6, "dynamic"), (0.5, "static")))
     mixed = (replace(numbers[0], analysis="dynamic"), replace(long, shown=True, analysis="static"))
     assert tile(mixed, moving, still).endswith("worst known: factor of safety 2.14, asked at least 2.00")
-    pull = [replace(item, name="anchor_uplift", value=item.value * 1e4, unit="N") for item in numbers]
+    pull = [replace(item, name="anchor_vertical_tension", value=item.value * 1e4, unit="N") for item in numbers]
     assert tile(tuple(pull), UPLIFT).endswith("not judged at SWL, short: at least 3.07 kN; worst known: 4.67 kN")
 
 
@@ -274,7 +276,7 @@ def test_no_tile_and_no_row_holds_of_a_computation_that_did_not_converge() -> No
     """A snap that the mesh changes: three rows read "holds" in green under "not judged"."""
     light = Headline("line_utilisation", "Use", 0.1, "1", "rode, storm")
     depth = Headline("depth", "Depth", 5.0, "m", "calm", band=Band(4.5, 5.5, "drag"))
-    pull = Headline("anchor_uplift", "Pull", 9e3, "N", "anchor, storm", band=Band(8e3, 10e3, "mesh"))
+    pull = Headline("anchor_vertical_tension", "Pull", 9e3, "N", "anchor, storm", band=Band(8e3, 10e3, "mesh"))
     result = plain_result()
     least = Criterion("least_depth", "depth", 4.0, "at least", "case file", "depth", "m")
     verdict = judge([light, pull, depth], [FACTOR, UPLIFT, least], computed=False)

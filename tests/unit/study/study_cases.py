@@ -147,7 +147,7 @@ def gumbel_case(case, progress):
     tensions = {
         "line_tension_maximum": (("line",), [largest] * count),
         "line_tension_mean": (("line",), [0.3 * largest] * count),
-        "maximum_anchor_vertical_tension": (("line",), [0.1 * largest] * count),
+        "anchor_vertical_tension_maximum": (("line",), [0.1 * largest] * count),
         "worst": ((), largest, {"units": "N", "long_name": "worst tension"}),
     }
     groups = {

@@ -32,7 +32,7 @@ def test_lines_are_held_against_intact_and_damaged_factors(tmp_path):
     study, result = assessed(
         tmp_path, GRID + "- lines_lost: true", "{lines: {codes: {name: API RP 2SK, analysis: dynamic}}}"
     )
-    used = result.tree["assessment/lines"]["utilisation"].squeeze("code").squeeze("sea")
+    used = result.tree["assessment/lines"]["factored_utilisation"].squeeze("code").squeeze("sea")
     tension = result.tree["SWL/time/storm"]["line_tension_maximum"]
     factor = np.array([1.67, 1.25, 1.25])[None, :, None]
     expected = tension.transpose("significant_height", "lost_line", "line").values * factor / 1e6
@@ -50,15 +50,15 @@ def test_lines_of_any_structure_are_told_by_their_responses(tmp_path):
         tmp_path,
         GRID,
         "{tensions: {rope: {maximum: SWL/time/storm/worst, mean: 'SWL/time/storm/line_tension_mean[line=seaward]',"
-        " uplift: SWL/time/storm/maximum_anchor_vertical_tension, breaking_load: 400 kN}},"
+        " uplift: SWL/time/storm/anchor_vertical_tension_maximum, breaking_load: 400 kN}},"
         " lines: {codes: {name: DNV-OS-E301, analysis: dynamic, consequence: '2'}},"
         " anchors: {rope: {kind: sinker, weight: 900 kN, coefficient: 0.6, safety_factor: 1.2}}}",
     )
     worst = result.tree["SWL/time/storm"]["worst"].values
-    used = result.tree["assessment/lines"]["utilisation"].sel(line="rope").values.ravel()
+    used = result.tree["assessment/lines"]["factored_utilisation"].sel(line="rope").values.ravel()
     assert np.allclose(used, (1.4 * 0.3 + 2.1 * 0.7) * worst / (0.95 * 4e5), rtol=1e-12)
     pull, up = worst * math.sqrt(0.99), 0.1 * worst
-    anchor = result.tree["assessment/anchors"]["utilisation"].values.ravel()
+    anchor = result.tree["assessment/anchors"]["factored_utilisation"].values.ravel()
     assert np.allclose(anchor, 1.2 * pull / (0.6 * (9e5 - 1.2 * up)), rtol=1e-12)
     assert governing(study, result, 3)[0][0] in ("line rope", "anchor of rope")
 
@@ -88,7 +88,7 @@ def test_own_factors_and_corrosion(tmp_path):
         "{lines: {codes: {name: house, analysis: dynamic, safety_factor_intact: 3}, corrosion_rate: 0.4, life: 20,"
         " diameter: {seaward: 68 mm, shoreward: 80 mm}}}",
     )
-    used = result.tree["assessment/lines"]["utilisation"].squeeze()
+    used = result.tree["assessment/lines"]["factored_utilisation"].squeeze()
     tension = result.tree["SWL/time/storm"]["line_tension_maximum"]
     for line, diameter in (("seaward", 0.068), ("shoreward", 0.080)):
         expected = tension.sel(line=line).values * 3.0 / (1e6 * (1 - 0.008 / diameter) ** 2)
@@ -104,7 +104,7 @@ def test_anchors_that_fail_lower_the_status(tmp_path):
         " shoreward: {kind: drag_anchor, weight: 10 kN, name: danforth, bed: sand, safety_factor: 1.5}}}",
     )
     assert result.status == "outside_validity"
-    used = result.tree["assessment/anchors"]["utilisation"]
+    used = result.tree["assessment/anchors"]["factored_utilisation"]
     pull = result.tree["SWL/time/storm"]["line_tension_maximum"].sel(line="seaward").values
     up = 0.1 * pull
     side = np.sqrt(pull**2 - up**2)

@@ -38,7 +38,7 @@ def test_the_lines_of_a_rigid_cage_are_held_against_a_code(tmp_path: Path) -> No
     assert not [notice.message for notice in result.notices if notice.severity == "error"]
     tension = result.tree["SWL/waves/swell"]["line_tension_maximum"]
     assert tension.attrs["units"] == "N" and set(tension.dims) == {"height", "wave", "line", "end"}
-    used = result.tree["assessment/lines"]["utilisation"].sel(code="own rule").squeeze("sea")
+    used = result.tree["assessment/lines"]["factored_utilisation"].sel(code="own rule").squeeze("sea")
     expected = 2.0 * tension.max(("wave", "end")) / 50.0
     assert float(expected.min()) > 0.0
     np.testing.assert_allclose(used.transpose("height", "line"), expected.transpose("height", "line"), rtol=1e-12)

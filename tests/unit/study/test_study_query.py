@@ -113,6 +113,7 @@ def test_alone_it_tells_what_there_is_to_ask(folder):
         (["-w", "height"], "no condition"),
         (["-w", "hight > 1"], "no axis and no response"),
         (["-w", "tenson > 1"], "did you mean 'tension'"),
+        (["-w", "maximum_uplift > 1"], "is called anchor_vertical_tension_maximum_lines_in_motion"),
         (["-w", "lost_line = sea"], "one of seaward"),
         (["-w", "lost_line > 1"], "no order"),
         (["-w", "significant_height > 1 kN"], "is in m"),

@@ -83,19 +83,22 @@ def _found(groups: dict[str, xr.Dataset]) -> dict[str, Headline]:
     return {item.name: item for item in anchor_headlines(seas)}
 
 
-UPLIFT = Criterion("greatest_uplift", "anchor_uplift", 0.0, "at most", "source", "uplift on the anchors", "N")
+UPLIFT = Criterion("greatest_uplift", "anchor_vertical_tension", 0.0, "at most", "source", "uplift on the anchors", "N")
 
 
 def test_uplift_of_the_line_that_pulls_hardest_fails_and_chain_on_the_bed_holds() -> None:
     at = _moored((0,))
     found = _found(_sea(at, 3.5e5))
-    tension, lifted = 3.5e5, found["anchor_uplift"]
+    tension, lifted = 3.5e5, found["anchor_vertical_tension"]
     expected = (2.0 * tension * WEIGHT * RISE - (WEIGHT * RISE) ** 2 - (WEIGHT * LENGTH) ** 2) / (2.0 * WEIGHT * LENGTH)
     assert lifted.value == pytest.approx(expected, rel=5e-3)
     assert "not a drag anchor" in found["anchor_capacity_required"].detail
     assert judge(found.values(), [UPLIFT], computed=True).outcome == "does not hold"
     found = _found(_sea(at, 1.2e4))
-    assert found["anchor_uplift"].text == "none" and "stays on the bed" in found["anchor_uplift"].detail
+    assert (
+        found["anchor_vertical_tension"].text == "none"
+        and "stays on the bed" in found["anchor_vertical_tension"].detail
+    )
     capacity = found["anchor_capacity_required"].value
     assert capacity == pytest.approx(1.5 * (1.2e4 - WEIGHT * RISE), rel=5e-3)
     assert judge(found.values(), [UPLIFT], computed=True).outcome == "holds"
@@ -103,8 +106,10 @@ def test_uplift_of_the_line_that_pulls_hardest_fails_and_chain_on_the_bed_holds(
 
 def test_no_uplift_without_slow_drift_is_not_known() -> None:
     found = _found(_sea(_moored((0,)), 1.2e4, irregular=True))
-    assert found["anchor_uplift"].text == "not known" and "slow drift" in found["anchor_uplift"].detail
-    assert found["anchor_horizontal_load"].bound == "at least"
+    assert (
+        found["anchor_vertical_tension"].text == "not known" and "slow drift" in found["anchor_vertical_tension"].detail
+    )
+    assert found["anchor_horizontal_tension"].bound == "at least"
     assert judge(found.values(), [UPLIFT], computed=True).outcome == "not judged"
 
 
@@ -112,7 +117,7 @@ def test_anchors_stand_on_the_page_where_no_sea_was_run() -> None:
     at = _moored((0,))
     groups = {"/SWL/statics": statics_dataset(at, np.zeros(at.size), np.zeros(at.size))}
     found = {item.name: item for item in headlines_of(groups)}
-    assert found["anchor_uplift"].text == "none" and found["anchor_uplift"].value == 0.0
+    assert found["anchor_vertical_tension"].text == "none" and found["anchor_vertical_tension"].value == 0.0
 
 
 PINS = tuple(Connector(f"pin {n}", "hinge", ((n, n + 1),), 0.0, 1.0, axis=(1.0, 0.0, 0.0)) for n in range(3))
@@ -169,10 +174,10 @@ def test_ends_of_damping_lift_an_anchor_that_lies_at_the_value() -> None:
     }
     groups["/SWL/frequency/daily"] = data.assign(ends)
     found = _found(groups | dict(anchored(groups)))
-    lifted = found["anchor_uplift"]
+    lifted = found["anchor_vertical_tension"]
     assert lifted.text == "none" and lifted.band is not None and lifted.band.high > 1e3
     assert judge(found.values(), [UPLIFT], computed=True).outcome == "does not hold"
-    pull = found["anchor_horizontal_load"]
+    pull = found["anchor_horizontal_tension"]
     assert pull.band is not None and lifted.band is not None
     weight = sinker_weight(pull.band.high, lifted.band.high)
     assert f"{weight / 1e3:.0f} kN" in found["anchor_capacity_required"].detail
@@ -196,7 +201,7 @@ def test_an_anchor_that_no_realisation_lifts_is_judged_at_the_end_of_its_tension
     groups = {"/SWL/statics": _curves(at), "/SWL/time/storm": data}
     seas = [("/SWL/time/storm", with_anchor_loads(data, groups["/SWL/statics"]).assign(_curves(at).data_vars))]
     found = {item.name: item for item in anchor_headlines(seas)}
-    lifted = found["anchor_uplift"]
+    lifted = found["anchor_vertical_tension"]
     assert lifted.text == "none" and lifted.band is not None and lifted.band.high > 0.0
     assert judge(found.values(), [UPLIFT], computed=True).outcome == "does not hold"
     assert "not a drag anchor" in found["anchor_capacity_required"].detail
@@ -219,7 +224,7 @@ def test_a_chain_that_comes_taut_along_regular_waves_is_a_bound(path: float, bou
     groups = {"/SWL/statics": statics}
     seas = [("/SWL/frequency/daily", with_anchor_loads(sea, statics))]
     found = {item.name: item for item in [*line_headlines(groups, seas), *anchor_headlines(seas)]}
-    for name in ("line_tension", "line_utilisation", "anchor_horizontal_load"):
+    for name in ("line_tension", "line_utilisation", "anchor_horizontal_tension"):
         assert found[name].bound == bound, name
 
 
@@ -258,7 +263,9 @@ def test_an_uplift_reaches_to_the_tension_at_which_its_line_is_judged() -> None:
         coords={"line": list(at.line_names)},
     )
     data = with_anchor_loads(data, _curves(at)).assign(_curves(at).data_vars)
-    lifted = next(item for item in anchor_headlines([("/SWL/time/storm", data)]) if item.name == "anchor_uplift")
+    lifted = next(
+        item for item in anchor_headlines([("/SWL/time/storm", data)]) if item.name == "anchor_vertical_tension"
+    )
     judged = each[:, 0].mean() + reach_of_mean(each[:, 0])
     assert lifted.value > 0.0 and lifted.band is not None
     assert lifted.band.high == pytest.approx(loads_at(np.array([judged, 0.0]), _curves(at))[1, 0], rel=1e-9)
@@ -279,7 +286,11 @@ def test_the_line_with_the_wider_band_is_judged_whatever_the_order(turned: bool)
     seas = [(path, data.assign(groups["/SWL/statics"].data_vars)) for path, data in seas]
     items = [*anchor_headlines(seas), *line_headlines(groups, seas)]
     wide = at.line_names[0 if turned else 1]
-    for name, limit in (("anchor_uplift", 1e3), ("anchor_horizontal_load", 5e4), ("line_utilisation", 0.5)):
+    for name, limit in (
+        ("anchor_vertical_tension", 1e3),
+        ("anchor_horizontal_tension", 5e4),
+        ("line_utilisation", 0.5),
+    ):
         asked = Criterion("limit", name, limit, "at most", "source", "limit", "N")
         judged = max((item for item in items if item.name == name), key=unfavourable)
         assert judge(items, [asked], computed=True).outcome == "does not hold" and wide in judged.where, name

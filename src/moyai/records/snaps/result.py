@@ -27,9 +27,6 @@ VARIABLES: dict[str, tuple[str, str]] = {
     "span_ratio": ("1", "span ratio B/l"),
     "depth_ratio": ("1", "depth of the skirt over that of the water, d/h"),
     "cauchy": ("1", "stiffness number C_E = sqrt(EA/rho)/(h sqrt(gh))"),
-    "peak_tension": ("N", "largest sum of both cables"),
-    "plateau_tension": ("N", "sum of both cables after the spike, the drag level"),
-    "impact_tension": ("N", "peak less drag level, both cables"),
     "cable_peak_tension": ("N", "largest tension of the cable"),
     "cable_plateau_tension": ("N", "drag level of the cable"),
     "cable_impact_tension": ("N", "peak of the cable less its drag level"),
@@ -66,7 +63,9 @@ VOCABULARY = Vocabulary.of(
         "curve_cable": "material whose runs give the other numbers",
         "record_file": "file of the record",
     },
-    always={"/runs": ("impact_tension", "tension_coefficient", "froude", "span_ratio", "depth_ratio", "cauchy")},
+    always={
+        "/runs": ("both_cables_impact_tension", "tension_coefficient", "froude", "span_ratio", "depth_ratio", "cauchy")
+    },
 )
 
 
@@ -83,9 +82,9 @@ def _runs(findings: SnapFindings) -> xr.Dataset:
         "start_speed": [item.start_speed for item in found],
         "draught": [item.run.impact.draught for item in found],
         "length": [item.run.impact.length for item in found],
-        "peak_tension": [item.run.record.total.peak for item in found],
-        "plateau_tension": [item.run.record.total.plateau for item in found],
-        "impact_tension": [item.run.record.total.impact for item in found],
+        "both_cables_peak_tension": [item.run.record.total.peak for item in found],
+        "both_cables_plateau_tension": [item.run.record.total.plateau for item in found],
+        "both_cables_impact_tension": [item.run.record.total.impact for item in found],
         "rise_time": [item.run.record.rise_time for item in found],
         "peak_missed": [item.run.record.peak_missed for item in found],
         "tension_coefficient": [item.numbers.tension_coefficient for item in found],

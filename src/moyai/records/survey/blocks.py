@@ -425,10 +425,10 @@ def _tensions(
         time, values = time[known], values[known]
         rate = 1.0 / float(np.median(np.diff(time)))
         split = split_tension(time, values, use.steady, cutoff=use.cutoff)
-        figures = {"steady": split.level, "snaps": math.nan}
+        figures = {"steady": split.level, "snap_count": math.nan}
         if math.isfinite(use.snap_limit):
             above = split.fluctuating > use.snap_limit
-            figures["snaps"] = float(np.count_nonzero(above[1:] & ~above[:-1]))
+            figures["snap_count"] = float(np.count_nonzero(above[1:] & ~above[:-1]))
         if waves is not None and len(waves):
             lag = survey.tension_lag + _refined_lag(survey, data, found, split.fluctuating)
             statistics = tension_statistics(

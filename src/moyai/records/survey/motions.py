@@ -23,7 +23,7 @@ class DecayFit:
     #: Period, damping ratio and quadratic damping.
     decay: Decay
     #: Position at rest [m or rad].
-    rest: float
+    equilibrium: float
     #: Start of the part of the record that was used [s].
     start: float
     #: End of that part [s].
@@ -44,7 +44,7 @@ def fit_decay_record(
     *,
     start: float | None = None,
     end: float | None = None,
-    rest: float | None = None,
+    equilibrium: float | None = None,
     smallest: float = 0.05,
     quadratic: bool = True,
 ) -> DecayFit:
@@ -56,7 +56,7 @@ def fit_decay_record(
         Evenly stepped record [s], [m or rad].
     start, end : float, optional
         Part to use [s]; by default from the largest departure from rest on.
-    rest : float, optional
+    equilibrium : float, optional
         Position at rest; by default the one about which the swings of both sides decay alike, near the median of the
         last fifth.
     smallest : float
@@ -76,7 +76,7 @@ def fit_decay_record(
     t, v = np.asarray(time, dtype=float), np.asarray(values, dtype=float)
     if t.shape != v.shape or t.size < 8:
         raise InputError(f"{v.size} samples for {t.size} instants", parameter="values", allowed="8 or more, equal")
-    level = float(np.nanmedian(v[-max(t.size // 5, 3) :])) if rest is None else float(rest)
+    level = float(np.nanmedian(v[-max(t.size // 5, 3) :])) if equilibrium is None else float(equilibrium)
     first = t[int(np.nanargmax(np.abs(v - level)))] if start is None else start
     chosen = (t >= first) & (t <= (t[-1] if end is None else end))
     t, v = t[chosen], v[chosen]
@@ -102,7 +102,7 @@ def fit_decay_record(
         message = f"ripple between the swings was smoothed over {smoothed:.3g} s before extremes were read"
         notices.append(Notice("decay-ripple", message, smoothed, severity="information"))
     found = fit_decay(t, v, mean=level, smallest=smallest, quadratic=quadratic)
-    if rest is None and found.ratios.size >= 4:
+    if equilibrium is None and found.ratios.size >= 4:
         for _ in range(3):  # another rest may bring further swings in
             level += _rest_shift(t, v, level, found, quadratic)
             found = fit_decay(t, v, mean=level, smallest=smallest, quadratic=quadratic)
@@ -110,7 +110,9 @@ def fit_decay_record(
         message = (
             f"the linear damping ratio comes out as {found.damping_ratio:.3g}: the extremes do not decay like this"
         )
-        notices.append(Notice("decay-damping", message, found.damping_ratio, 0.0, remedy="check rest, start and end"))
+        notices.append(
+            Notice("decay-damping", message, found.damping_ratio, 0.0, remedy="check equilibrium, start and end")
+        )
     if found.ratios.size < 6 and quadratic:
         message = f"{found.ratios.size} half cycles hardly determine two damping coefficients"
         notices.append(Notice("few-cycles", message, float(found.ratios.size), 6.0))

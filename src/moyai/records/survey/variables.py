@@ -50,7 +50,7 @@ VARIABLES: dict[str, tuple[str, str]] = {
     "third": ("N", "mean of the highest third T_1/3"),
     "mean": ("N", "mean of all waves T_mean"),
     "waves": ("1", "waves that were matched"),
-    "snaps": ("1", "snap events"),
+    "snap_count": ("1", "snap events"),
     "lag": ("s", "lag of the tension behind the wave"),
     # spectra
     "density": ("m2/Hz", "one-sided spectral density"),

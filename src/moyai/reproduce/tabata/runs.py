@@ -221,4 +221,5 @@ def _in_typhoon(case: CurtainProblem, seed: int, progress: Progress) -> Pulls:
         ),
     )
     found = run_problem("curtain", changed, progress).tree["SWL/dynamic"].to_dataset()
-    return Pulls(*(float(found[f"{name}_peak"].max()) for name in ("anchor", "upper", "skirt")))
+    names = ("anchor_line_tension_maximum", "upper_peak", "skirt_peak")
+    return Pulls(*(float(found[name].max()) for name in names))

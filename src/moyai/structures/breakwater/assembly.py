@@ -369,7 +369,7 @@ def _equilibrium(breakwater: Breakwater, water: Water, balance: _Balance, start:
         )
     except ConvergenceError as error:
         raise InputError(
-            f"the unit finds no rest: {error.fault.message}", parameter="breakwater", remedy=error.fault.remedy
+            f"the unit finds no equilibrium: {error.fault.message}", parameter="breakwater", remedy=error.fault.remedy
         ) from error
     # What is left of a Newton search is no heel and no offset
     heel = found.heel if abs(found.heel) > 1e-9 else 0.0

@@ -226,9 +226,9 @@ def _offset(domain: str, data: xr.Dataset, level: str, sea: str, frequency: xr.D
     mean = np.atleast_2d(data.variables["mean_offset"].values)[:, 0] if "mean_offset" in data else np.array([math.nan])
     model = _motion_model(domain, data)
     band, bound = None, alone(np.zeros(0))
-    if "maximum_excursion" in data:
-        value = float(data.variables["maximum_excursion"].values[0])
-        scatter = np.asarray(data.variables["maximum_excursion_of_realisation"].values[:, 0], dtype=float)
+    if "largest_offset_by_dof" in data:
+        value = float(data.variables["largest_offset_by_dof"].values[0])
+        scatter = np.asarray(data.variables["largest_offset_by_dof_of_realisation"].values[:, 0], dtype=float)
         band, bound = _with_lines_in_motion(value, seeds(scatter), data, _SWAY), alone(scatter)
         within = float(data.attrs.get("duration", math.nan))
         detail = f"largest in {storm_words(within)}; " if math.isfinite(within) else ""
@@ -305,7 +305,7 @@ def _slow_words(frequency: xr.Dataset | None) -> str:
 
 def _roll(domain: str, data: xr.Dataset, level: str, sea: str, frequency: xr.Dataset | None) -> list[Headline]:
     """Return the largest roll of a sea: mean over realisations, or the most probable one of the frequency domain."""
-    name = "maximum_excursion" if "maximum_excursion" in data else "most_probable_maximum_motion"
+    name = "largest_offset_by_dof" if "largest_offset_by_dof" in data else "most_probable_maximum_motion"
     if name not in data or "significant_motion" not in data:
         return []
     value, significant = float(data.variables[name].values[2]), float(data.variables["significant_motion"].values[2])

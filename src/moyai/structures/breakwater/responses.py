@@ -37,7 +37,7 @@ def line_tensions(unit: FloatingUnit, solved: DriftedMotions, moving: ComplexArr
         "tension_amplitude",
         "line_tension_maximum",
         "line_tension_minimum",
-        "maximum_anchor_vertical_tension",
+        "anchor_vertical_tension_maximum",
     )
     out = {name: np.zeros((count, kinds)) for name in names}
     if not kinds:
@@ -56,7 +56,7 @@ def line_tensions(unit: FloatingUnit, solved: DriftedMotions, moving: ComplexArr
             out["tension_amplitude"][index, column] = 1e3 * abs(complex(pull[-2] - pull[0], pull[-1] - pull[0]))
             out["line_tension_maximum"][index, column] = pull[: PHASES + 1].max()
             out["line_tension_minimum"][index, column] = pull[: PHASES + 1].min()
-            out["maximum_anchor_vertical_tension"][index, column] = state.vertical_tension_anchor[: PHASES + 1].max()
+            out["anchor_vertical_tension_maximum"][index, column] = state.vertical_tension_anchor[: PHASES + 1].max()
     load = np.array([line.breaking_load for line in unit.lines])
     out["maximum_utilisation"] = np.where(np.isfinite(load), out["line_tension_maximum"] / load, np.nan)
     return out

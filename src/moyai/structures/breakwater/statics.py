@@ -116,7 +116,7 @@ def _lines(unit: FloatingUnit) -> dict[str, Any]:
     names = {
         "fairlead_tension": "tension_fairlead",
         "anchor_tension": "tension_anchor",
-        "horizontal_tension": "horizontal_tension",
+        "anchor_horizontal_tension": "horizontal_tension",
         "fairlead_vertical_tension": "vertical_tension_fairlead",
         "anchor_vertical_tension": "vertical_tension_anchor",
         "grounded_length": "grounded_length",
@@ -210,8 +210,8 @@ def mooring_dataset(unit: FloatingUnit, offsets: Array | None) -> xr.Dataset:
         "restoring_force": ("offset", force[:, 0]),
         "vertical_force": ("offset", force[:, 1]),
         "line_tension": (("line", "offset"), column("tension_fairlead")),
-        "line_horizontal_tension": (("line", "offset"), column("horizontal_tension")),
-        "line_anchor_vertical_tension": (("line", "offset"), column("vertical_tension_anchor")),
+        "anchor_horizontal_tension": (("line", "offset"), column("horizontal_tension")),
+        "anchor_vertical_tension": (("line", "offset"), column("vertical_tension_anchor")),
         "mooring_stiffness": (
             "offset",
             planar.stiffness(path)[:, 0, 0],

@@ -37,10 +37,7 @@ VARIABLES: dict[str, tuple[str, str]] = {
     "damping_ratio": ("1", "damping over critical at the natural frequency"),
     "line_count": ("1", "number of identical lines"),
     "fairlead_tension": ("N", "tension at the fairlead at rest"),
-    "anchor_tension": ("N", "tension at the anchor at rest"),
-    "horizontal_tension": ("N", "horizontal tension at rest"),
     "fairlead_vertical_tension": ("N", "vertical tension at the fairlead at rest"),
-    "anchor_vertical_tension": ("N", "vertical tension at the anchor at rest, upward on the anchor"),
     "grounded_length": ("m", "length on the bed at rest"),
     "unstretched_length": ("m", "unstretched length"),
     "breaking_load": ("N", "breaking load"),
@@ -61,8 +58,6 @@ VARIABLES: dict[str, tuple[str, str]] = {
     "restoring_force": ("N", "horizontal force of all lines on the unit"),
     "vertical_force": ("N", "vertical force of all lines on the unit"),
     "line_tension": ("N", "tension at the fairlead"),
-    "line_horizontal_tension": ("N", "horizontal tension"),
-    "line_anchor_vertical_tension": ("N", "vertical tension at the anchor"),
     "rao": ("m/m", "motion per wave amplitude (roll: rad/m)"),
     "reflection_coefficient": ("1", "reflection coefficient C_R"),
     "transmission_coefficient": ("1", "transmission coefficient C_T"),
@@ -85,7 +80,6 @@ VARIABLES: dict[str, tuple[str, str]] = {
     "tension_amplitude": ("N", "amplitude of the tension at the fairlead, linear"),
     "line_tension_maximum": ("N", "largest tension at the fairlead"),
     "line_tension_minimum": ("N", "smallest tension at the fairlead"),
-    "maximum_anchor_vertical_tension": ("N", "largest vertical tension at the anchor"),
     "maximum_utilisation": ("1", "largest tension over breaking load"),
     "relative_elevation": ("m", "amplitude of the water surface relative to the seaward deck edge"),
     "overtopping_share": ("1", "share of waves whose relative elevation exceeds the freeboard"),
@@ -112,16 +106,15 @@ VARIABLES: dict[str, tuple[str, str]] = {
     "slow_sway_period": ("s", "natural period of sway at the mean offset"),
     "slow_sway_damping_ratio": ("1", "damping of the slow sway over critical, radiation included"),
     "largest_offset": ("m", "largest sway from rest, mean, slow drift and waves together"),
-    "maximum_anchor_horizontal_tension": ("N", "largest horizontal tension at the anchor"),
     "lines_in_motion": ("1", "whether the largest tension is that of a line in motion"),
     "seed_of_realisation": ("1", "seed of the realisation"),
     "line_tension_maximum_of_realisation": ("N", "largest tension at the fairlead in each realisation"),
-    "maximum_anchor_vertical_tension_of_realisation": ("N", "largest uplift at the anchor in each realisation"),
-    "maximum_anchor_horizontal_tension_of_realisation": (
+    "anchor_vertical_tension_maximum_of_realisation": ("N", "largest uplift at the anchor in each realisation"),
+    "anchor_horizontal_tension_maximum_of_realisation": (
         "N",
         "largest horizontal tension at the anchor in each realisation",
     ),
-    "maximum_excursion_of_realisation": ("m", "largest excursion from rest in each realisation (roll: rad)"),
+    "largest_offset_by_dof_of_realisation": ("m", "largest way from rest in each realisation (roll: rad)"),
     "maximum_motion": ("m", "largest excursion from the mean (roll: rad)"),
     "significant_tension": ("N", "significant double amplitude of the tension"),
     "position": ("m", "position relative to rest (roll: rad)"),
@@ -136,13 +129,11 @@ VARIABLES: dict[str, tuple[str, str]] = {
     "mean_drift_force_per_amplitude_squared": ("N/m2", "mean drift force on the unit per wave amplitude squared"),
     "mean_zero_crossing_period": ("s", "mean zero-crossing period of the motion"),
     "significant_relative_elevation": ("m", "significant double amplitude of the relative elevation at the deck edge"),
-    "maximum_excursion": ("m", "largest excursion from rest (roll: rad)"),
+    "largest_offset_by_dof": ("m", "largest way from rest in each degree of freedom (roll: rad)"),
     "damping_fraction": ("1", "damping as a fraction of critical"),
     "line_slack": ("m", "length of line beyond the chord"),
     "number_of_lines": ("1", "number of lines in all"),
     "line_tension_peak_since_row": ("N", "highest tension at the fairlead since the row before"),
-    "anchor_tension_history": ("N", "tension at the anchor of a line in motion"),
-    "anchor_uplift": ("N", "vertical tension at the anchor of a line in motion"),
     "grounded_length_history": ("m", "length of a line in motion that touches the bed"),
     "moving_line_x": ("m", "line in motion, x"),
     "moving_line_z": ("m", "line in motion, z"),
@@ -158,15 +149,13 @@ VARIABLES: dict[str, tuple[str, str]] = {
     ),
     "line_tension_bound_of_realisation": ("N", "the same of each realisation"),
     "line_tension_maximum_lines_at_rest": ("N", "largest tension at the fairlead with lines at rest at every instant"),
-    "maximum_uplift": ("N", "largest vertical tension at the anchor of a line in motion"),
-    "maximum_anchor_tension": ("N", "largest tension at the anchor of a line in motion"),
+    "anchor_vertical_tension_maximum_lines_in_motion": (
+        "N",
+        "largest vertical tension at the anchor of a line in motion",
+    ),
     "least_grounded_length": ("m", "shortest length on the bed"),
     "slack_time": ("s", "time that the line is slack"),
     "longest_slack": ("s", "longest time that the line is slack at once"),
-    "contact_count": ("1", "times that the slack line comes taut"),
-    "snap_count": ("1", "contacts whose peak is that of a snap"),
-    "largest_snap": ("N", "highest peak of a snap"),
-    "least_rise_time": ("s", "shortest rise of a snap from a tenth to nine tenths"),
     "peak_change_twice_the_bars": ("1", "change of the largest tension with twice the bars"),
     "peak_change_half_the_step": ("1", "change of the largest tension with half the step"),
     "peak_change_twice_the_damping": ("1", "change of the largest tension with twice the internal damping"),
@@ -199,14 +188,14 @@ ALWAYS = {
         "breaking_load"
     ),
     "/[^/]+/mooring": (
-        "restoring_force vertical_force line_tension line_horizontal_tension line_anchor_vertical_tension "
+        "restoring_force vertical_force line_tension anchor_horizontal_tension anchor_vertical_tension "
         "mooring_stiffness"
     ),
     "/[^/]+/rao": (
         "rao period wavelength wavelength_over_beam transmission_macagno transmission_wiegel transmission_ruol"
     ),
     "/[^/]+/frequency/[^/]+": (
-        "omega line_tension_maximum line_tension_mean maximum_anchor_vertical_tension mean_offset mean_drift_force "
+        "omega line_tension_maximum line_tension_mean anchor_vertical_tension_maximum mean_offset mean_drift_force "
         "equivalent_damping equivalent_damping_fraction"
     ),
     "/[^/]+/memory": (
@@ -222,9 +211,9 @@ ALWAYS = {
 TOGETHER = {
     "/[^/]+/statics": (
         (
-            "fairlead_tension anchor_tension horizontal_tension fairlead_vertical_tension anchor_vertical_tension "
-            "grounded_length line_count unstretched_length breaking_load utilisation fairlead_x fairlead_z anchor_x "
-            "anchor_z line_x line_z"
+            "fairlead_tension anchor_tension anchor_horizontal_tension fairlead_vertical_tension "
+            "anchor_vertical_tension grounded_length line_count unstretched_length breaking_load utilisation "
+            "fairlead_x fairlead_z anchor_x anchor_z line_x line_z"
         ),
         "line_shape_x line_shape_z",
     ),
@@ -244,7 +233,7 @@ TOGETHER = {
         (
             "wave_spectrum response_spectrum significant_height significant_motion significant_motion_low "
             "significant_motion_high most_probable_maximum_motion mean_zero_crossing_period significant_tension "
-            "most_probable_maximum_tension maximum_anchor_horizontal_tension least_grounded_length largest_offset "
+            "most_probable_maximum_tension anchor_horizontal_tension_maximum least_grounded_length largest_offset "
             "overtopping_share significant_relative_elevation"
         ),
         "transmitted_significant_height transmitted_spectrum",
@@ -256,20 +245,23 @@ TOGETHER = {
     "/[^/]+/time/[^/]+": (
         (
             "mean_offset maximum_motion mean_drift_force lines_in_motion line_tension_maximum line_tension_mean "
-            "maximum_anchor_vertical_tension "
-            "maximum_anchor_horizontal_tension least_grounded_length maximum_utilisation"
+            "anchor_vertical_tension_maximum "
+            "anchor_horizontal_tension_maximum least_grounded_length maximum_utilisation"
         ),
         (
             "motion_amplitude motion_ratio wavelength_over_beam line_tension_minimum damping_work energy_to_harmonics "
             "harmonic_radiation"
         ),
         "significant_motion significant_tension significant_height",
-        "maximum_excursion maximum_excursion_of_realisation line_tension_maximum_of_realisation seed_of_realisation",
-        "slack_time longest_slack contact_count snap_count largest_snap least_rise_time",
+        (
+            "largest_offset_by_dof largest_offset_by_dof_of_realisation line_tension_maximum_of_realisation "
+            "seed_of_realisation"
+        ),
+        "slack_time longest_slack contact_count snap_count largest_snap shortest_rise_time",
     ),
     "/[^/]+/time/[^/]+/[^/]+": (
         (
-            "anchor_tension_history anchor_uplift grounded_length_history moving_line_x moving_line_z "
+            "anchor_tension anchor_vertical_tension grounded_length_history moving_line_x moving_line_z "
             "line_tension_peak_since_row"
         ),
         "position_lines_at_rest tension_lines_at_rest",

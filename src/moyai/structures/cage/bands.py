@@ -27,7 +27,8 @@ NO_LAWS = "without the net laws in the sea, whose runs failed"
 _SAME_LAWS = "the same net laws as for the volume"
 #: Numbers of the first page that a run under another law gives, those of lines apart.
 _IN_WAVES = {
-    "volume_share": LEAST_VOLUME, "drag": DRAG, "offset": OFFSET, "net_tension": NET_TENSION, "collar_stress": STRESS,
+    "volume_share": LEAST_VOLUME, "drag": DRAG, "largest_offset": OFFSET, "net_tension": NET_TENSION,
+    "collar_stress": STRESS,
 }  # fmt: skip
 
 

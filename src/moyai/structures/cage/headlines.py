@@ -115,7 +115,7 @@ def _with_mesh(item: Headline, factors: Factors) -> Headline:
     quantity = {
         "volume_left": VOLUME_IN_CURRENT if steady else LEAST_VOLUME, "drag": DRAG_IN_CURRENT if steady else DRAG,
         "line_tension": tension_of(line), "line_utilisation": tension_of(line), "offset": OFFSET,
-        "anchor_load": tension_of("anchor"),
+        "anchor_tension": tension_of("anchor"),
         "collar_stress": STRESS, "net_tension": NET_TENSION_IN_CURRENT if steady else NET_TENSION,
     }.get(item.name, "")  # fmt: skip
     if quantity not in factors:
@@ -294,7 +294,7 @@ def _dynamic_tension(run: xr.Dataset, line: int, where: str, state: LevelState |
         name, most = str(run["line"].values[int(np.argmax(everything))]), float(everything.max()) / 1e3
         details.append(f"nearest to its breaking load; the largest tension of all is {most:.3g} kN, in {name}")
     mean = float(run["line_tension_mean"].values[line]) if "line_tension_mean" in run else None
-    slack, snaps = float(run["slack_share"].values[line]), int(run["snaps"].values[line])
+    slack, snaps = float(run["slack_share"].values[line]), int(run["snap_count"].values[line])
     if slack > 0.0:
         details.append(f"slack for {100.0 * slack:.2g} % of the time" + (f", {snaps} snaps" if snaps else ""))
     series = run["line_tension_peak_since_row"].values[:, line]
@@ -315,7 +315,9 @@ def _offset(states: list[LevelState], runs: Runs, factors: Factors = NO_MESH) ->
     for state in states:
         calm = state.statics.variables["collar_place"].values[0]
         away = state.statics.variables["collar_place"].values[state.row] - calm
-        found.append((float(np.linalg.norm(away[:, :2], axis=1).max()), state.where, STATICS, state.band("offset")))
+        found.append(
+            (float(np.linalg.norm(away[:, :2], axis=1).max()), state.where, STATICS, state.band("largest_offset"))
+        )
         for at, where, run in runs:
             if at.level != state.level:
                 continue
@@ -323,7 +325,7 @@ def _offset(states: list[LevelState], runs: Runs, factors: Factors = NO_MESH) ->
             moved = np.linalg.norm((run["collar_place"].values - calm)[..., :2], axis=-1)
             series = moved.reshape(moved.shape[0], -1).max(axis=1)
             value = float(series[late].max())
-            found.append((value, where, DYNAMIC, band_in_sea(at, "offset", run, value, series)))
+            found.append((value, where, DYNAMIC, band_in_sea(at, "largest_offset", run, value, series)))
     if not found or max(item[0] for item in found) < 1e-9:
         return []
     return judged_seas(
@@ -338,34 +340,33 @@ def _offset(states: list[LevelState], runs: Runs, factors: Factors = NO_MESH) ->
 def _anchor(states: list[LevelState], runs: Runs, factors: Factors = NO_MESH) -> list[Headline]:
     found: list[tuple[float, str, str, str, Band | None]] = []
     for state, where, run in runs:
-        if "line_tension_maximum_lower" not in run:
+        if "anchor_tension_maximum" not in run:
             continue
-        names = [str(name) for name in run["line"].values]
-        anchors = [k for k, name in enumerate(names) if "anchor" in name]
-        if anchors:
-            lower = run["line_tension_maximum_lower"].values
-            up = float(run["line_uplift_lower"].values[anchors].max())
-            detail = f"upwards {up / 1e3:.3g} kN, the largest of all anchors in this run, without a band"
-            for line in anchors:
-                pull = float(lower[line])
-                # the lower end has no series of its own: the chance is that of the line's largest tension
-                share = pull / max(float(run["line_tension_maximum"].values[line]), 1e-300)
-                series = share * run["line_tension_peak_since_row"].values[:, line]
-                band = band_in_sea(state, "anchor_pull", run, pull, series, line, float(lower[anchors].max()))
-                found.append((pull, f"lower end of {names[line]}, {where}", DYNAMIC, detail, band))
+        pulls, lines = run["anchor_tension_maximum"].values, [str(name) for name in run["line"].values]
+        up = float(run["anchor_vertical_tension_maximum"].values.max())
+        detail = f"upwards {up / 1e3:.3g} kN, the largest of all anchors in this run, without a band"
+        for name, pull in zip(map(str, run["anchor"].values), map(float, pulls), strict=True):
+            line = lines.index(name)
+            # the lower end has no series of its own peaks: the chance is that of the line's largest tension
+            share = pull / max(float(run["line_tension_maximum"].values[line]), 1e-300)
+            series = share * run["line_tension_peak_since_row"].values[:, line]
+            band = band_in_sea(state, "anchor_tension_maximum", run, pull, series, line, float(pulls.max()))
+            found.append((pull, f"lower end of {name}, {where}", DYNAMIC, detail, band))
     for state in [] if found else states:
-        if "anchor_pull" in state.statics and state.statics["anchor_pull"].size:
-            pulls = state.statics.variables["anchor_pull"].values[state.row]
+        if "anchor_tension" in state.statics and state.statics["anchor_tension"].size:
+            pulls = state.statics.variables["anchor_tension"].values[state.row]
             at = int(np.argmax(pulls))
-            up = float(state.statics.variables["anchor_uplift"].values[state.row, at])
+            up = float(state.statics.variables["anchor_vertical_tension"].values[state.row, at])
             name = str(state.statics.variables["anchor"].values[at])
             detail = f"upwards {up / 1e3:.3g} kN; no sea was run"
-            found.append((float(pulls[at]), f"{name}, {state.where}", STATICS, detail, state.band("anchor_pull")))
+            found.append(
+                (float(pulls[at]), f"{name}, {state.where}", STATICS, detail, state.band("anchor_tension_maximum"))
+            )
     if not found:
         return []
     return judged_seas(
         (
-            Headline("anchor_load", "largest pull on an anchor", value, "N", where, model, band, detail=detail)
+            Headline("anchor_tension", "largest pull on an anchor", value, "N", where, model, band, detail=detail)
             for value, where, model, detail, band in found
         ),
         factors=factors,

@@ -36,7 +36,10 @@ if TYPE_CHECKING:
     import xarray as xr
 
 #: Headlines of loads: name, words, components of which the most loaded one counts, in the order of the page
-_LOADS = (("cable_tension", "cable", ("upper cable", "lower cable")), ("anchor_load", "anchor line", ("anchor line",)))
+_LOADS = (
+    ("cable_tension", "cable", ("upper cable", "lower cable")),
+    ("anchor_tension", "anchor line", ("anchor line",)),
+)
 #: Headlines of utilisations: load over strength, the safety factor left to the criterion
 _USED = (
     ("cable_utilisation", "Cables, load over strength", ("upper cable", "lower cable")),
@@ -48,7 +51,7 @@ _USED = (
 #: Number of the statics that is the steady load of a component
 _STEADY_NAMES = {
     "upper cable": "upper_tension", "lower cable": "lower_tension", "skirt": "sheet_tension",
-    "anchor line": "anchor_line_tension", "anchor": "anchor_force",
+    "anchor line": "anchor_tension", "anchor": "anchor_horizontal_tension",
 }  # fmt: skip
 _NOT_JUDGED = Headline(
     "not_judged", "Not judged", math.nan, "1", text="wear and fatigue, one line lost, seams and eyelets",
@@ -163,7 +166,7 @@ def curtain_headlines(
     if used and not math.isnan(used[0].value):
         # the load behind the most used component stands next to it
         first = used[0]
-        behind = "anchor_load" if first.name.startswith("anchor") else "cable_tension"
+        behind = "anchor_tension" if first.name.startswith("anchor") else "cable_tension"
         found.sort(key=lambda item: (item.name != first.name, item.name != behind))
     failing = _failing(found, criteria)
     # what fails, then what decides, then what is only bounded or not known
@@ -189,7 +192,7 @@ def _loads_of(groups: Groups, level: str) -> Iterator[_Load]:
             load = replace(load, other={
                 "governing": load.words("case_governing"), "governing_load": load.number("case_load"),
                 "governing_high": load.number("case_high"), "load_bound": load.words("case_bound"),
-                "utilisation": load.use_of(load.number("case_load")),
+                "factored_utilisation": load.use_of(load.number("case_load")),
             })  # fmt: skip
         if math.isfinite(load.value):
             yield replace(load, band=_band(groups, load))
@@ -210,7 +213,7 @@ def _other_waves(load: _Load) -> Iterator[_Load]:
         yield replace(load, other={
             "governing": "steady and wave", "wave_load": adds, "wave_source": load.words(f"{name}_source"),
             "governing_load": whole, "governing_high": whole + (more if math.isfinite(more) else 0.0), "load_bound": "",
-            "utilisation": load.use_of(whole),
+            "factored_utilisation": load.use_of(whole),
         })  # fmt: skip
 
 
@@ -222,7 +225,8 @@ def _in_weaker(load: _Load, which: str = "weaker") -> Iterator[_Load]:
             "governing": "steady and weaker", "governing_load": value, "governing_high": load.number(f"{which}_high"),
             "weaker_source": load.words(f"{which}_source"),
             # what is known in weaker currents stands next to a bound as a value
-            "load_bound": load.words("load_bound") if which == "governing" else "", "utilisation": load.use_of(value),
+            "load_bound": load.words("load_bound") if which == "governing" else "",
+            "factored_utilisation": load.use_of(value),
         })  # fmt: skip
 
 
@@ -244,7 +248,7 @@ def _other_runs(groups: Groups, load: _Load) -> Iterator[_Load]:
             continue
         yield replace(load, other={
             "governing": "dynamic", "governing_load": tension, "governing_high": tension, "dynamic_load": tension,
-            "dynamic_source": run, "load_bound": bound, "utilisation": load.use_of(tension),
+            "dynamic_source": run, "load_bound": bound, "factored_utilisation": load.use_of(tension),
         })  # fmt: skip
 
 
@@ -344,16 +348,16 @@ def _used(loads: Sequence[_Load]) -> Iterator[tuple[float, Headline]]:
             continue
         # what is judged worst is shown; where that is no number to design with, the most used component
         rated = [pair for pair in each if not pair[1].bound and math.isfinite(pair[1].value)]
-        top = max(each, key=lambda pair: pair[0].number("utilisation"))
+        top = max(each, key=lambda pair: pair[0].number("factored_utilisation"))
         shown, first = max(rated, key=lambda pair: _end(pair[1])) if rated and top in rated else top
-        yield shown.number("utilisation"), first
+        yield shown.number("factored_utilisation"), first
         others = [
             headline if math.isfinite(headline.value) else replace(headline, text=f"not known at {one.level}")
             for one, headline in each
             if one is not shown
         ]
         for other in also_judged(first, others):
-            yield shown.number("utilisation"), other
+            yield shown.number("factored_utilisation"), other
 
 
 def _end(item: Headline) -> float:
@@ -560,7 +564,7 @@ def _not_judged(groups: Groups) -> Headline:
 
 
 def _is_cycles(path: str, data: xr.Dataset, level: str) -> bool:
-    return path.startswith(f"/{level}/waves/") and path.count("/") == 3 and "maximum_tension" in data
+    return path.startswith(f"/{level}/waves/") and path.count("/") == 3 and "both_cables_tension_maximum" in data
 
 
 def _steady_band(groups: Groups, load: _Load) -> Band | None:

@@ -57,7 +57,7 @@ def steady_headlines(groups: Groups, levels: Sequence[str]) -> Iterator[Headline
         statics = groups.get(f"/{level}/statics")
         if statics is None:
             continue
-        name = "span_load" if "steady_span_load" in statics else "anchor_force"
+        name = "span_load" if "steady_span_load" in statics else "anchor_horizontal_tension"
         value = at_rest(statics, name)
         line = at_rest(statics, "line_load" if "steady_line_load" in statics else "section_load")
         if math.isfinite(value):

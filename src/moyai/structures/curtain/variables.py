@@ -51,9 +51,9 @@ VARIABLES: dict[str, tuple[str, str]] = {
     "sag": ("m", "largest deflection in plan"),
     "strain": ("1", "strain of the cables"),
     "end_angle": ("rad", "larger angle between curtain and span at a support"),
-    "anchor_force": ("N", "horizontal force on the anchor of an inner support"),
-    "end_anchor_force": ("N", "horizontal force on the more loaded support of a lone span"),
-    "anchor_line_tension": ("N", "tension of the anchor line of an inner support"),
+    "anchor_horizontal_tension": ("N", "horizontal part of the tension at the anchor of an inner support"),
+    "end_anchor_horizontal_tension": ("N", "horizontal force on the more loaded support of a lone span"),
+    "anchor_tension": ("N", "tension of the anchor line of an inner support, straight from its anchor"),
     "float_reserve": ("N/m", "buoyancy left"),
     "float_reserve_ratio": ("1", "buoyancy left over buoyancy"),
     "slack_float_reserve_ratio": ("1", "buoyancy left over buoyancy at slack water"),
@@ -72,14 +72,14 @@ VARIABLES: dict[str, tuple[str, str]] = {
     "steady_load_bound": ("N/m", "weights of toe and sheet: no load normal to the sheet can exceed it with a free toe"),
     "cause_line_load": ("N/m", "load per length with one thing varied"),
     "cause_cable_tension": ("N", "tension of all cables with one thing varied"),
-    "cause_anchor_force": ("N", "horizontal force on an inner anchor with one thing varied"),
+    "cause_anchor_horizontal_tension": ("N", "horizontal force on an inner anchor with one thing varied"),
     "cause_effective_depth": ("m", "vertical reach of the skirt with one thing varied"),
     "compared_line_load": ("N/m", "load per length of curtain by the model"),
     "compared_span_load": ("N", "load of the span by the model"),
     "compared_ratio": ("1", "load by the model over the governing steady load"),
     "direction_span_load": ("N", "downstream load of one span with the current turned"),
     "direction_cable_tension": ("N", "tension of all cables with the current turned"),
-    "direction_anchor_force": ("N", "horizontal force on an inner anchor with the current turned"),
+    "direction_anchor_horizontal_tension": ("N", "horizontal force on an inner anchor with the current turned"),
     "steady_direction": ("rad", "angle of the current from the normal of the span"),
     # load laws
     "law_effective_depth": ("m", "vertical reach under the law"),
@@ -125,7 +125,6 @@ VARIABLES: dict[str, tuple[str, str]] = {
         for axis in ("x", "y", "z")
     },
     # impact
-    "impact_tension": ("N", "largest sum of the tensions of both cables"),
     "impact_time": ("s", "from taut to the peak"),
     "impact_upper_tension": ("N", "largest tension of the upper cable"),
     "impact_lower_tension": ("N", "largest tension of the lower cable"),
@@ -144,7 +143,6 @@ VARIABLES: dict[str, tuple[str, str]] = {
     "rise_ratio": ("1", "rise of the tension over sqrt(d/g)"),
     "relative_step": ("1", "omega dt of the marching"),
     "time_step": ("s", "time step of the marching"),
-    "plateau_tension": ("N", "level of the drag after the spike"),
     "spread": ("1", "largest over smallest tension of the models"),
     "design_tension": ("N", "tension of the model that the load table takes"),
     "steps_to_peak": ("1", "steps from taut to the peak"),
@@ -173,9 +171,6 @@ VARIABLES: dict[str, tuple[str, str]] = {
     "peak_time": ("s", "when their sum is largest"),
     "plateau_start": ("s", "from when on the sum stays at its plateau"),
     "rise_time": ("s", "from taut to the peak"),
-    "sum_peak_tension": ("N", "largest sum of the cables"),
-    "sum_plateau_tension": ("N", "plateau of the sum"),
-    "sum_impact_tension": ("N", "peak of the sum above its plateau"),
     "peak_missed": ("1", "largest share of the peak that the sampling may have missed"),
     "cable_peak_tension": ("N", "largest tension of a cable"),
     "cable_plateau_tension": ("N", "plateau of a cable"),
@@ -189,13 +184,13 @@ VARIABLES: dict[str, tuple[str, str]] = {
     # waves
     "period": ("s", "wave period"),
     "velocity_amplitude": ("m/s", "amplitude of the water's speed along the normal, mean over the skirt"),
-    "excursion": ("m", "double amplitude of the water's travel"),
-    "threshold_excursion": ("m", "double amplitude below which the curtain never becomes taut without a current"),
-    "maximum_tension": (
+    "water_excursion": ("m", "double amplitude of the water's travel"),
+    "threshold_water_excursion": ("m", "double amplitude below which the curtain never becomes taut without a current"),
+    "both_cables_tension_maximum": (
         "N",
         "sum of the tensions of both cables: largest that repeats, mean of the largest of 100 periods or realisations",
     ),
-    "maximum_tension_low": ("N", "least of the largest tensions of 100 periods or of the realisations"),
+    "both_cables_tension_maximum_low": ("N", "least of the largest tensions of 100 periods or of the realisations"),
     "lower_wave_tension": ("N", "largest tension of waves of half to nine tenths of the height, both cables together"),
     "judged_tension": (
         "N",
@@ -203,7 +198,7 @@ VARIABLES: dict[str, tuple[str, str]] = {
     ),
     "strong_drag_tension": ("N", "judged tension with the drag coefficient at the upper end of its range"),
     "lower_wave_height": ("m", "height of the wave in which it occurs"),
-    "maximum_tension_high": ("N", "largest of the largest tensions of 100 periods or of the realisations"),
+    "both_cables_tension_maximum_high": ("N", "largest of the largest tensions of 100 periods or of the realisations"),
     "periods_left_out": ("1", "periods left out at the start"),
     "periods_analysed": ("1", "periods that count"),
     "repeats_after": ("1", "periods after which the motion repeats; none: it does not"),
@@ -215,11 +210,11 @@ VARIABLES: dict[str, tuple[str, str]] = {
     "model_reason": ("", "why it has that role"),
     "model_value": ("1", "number that decides the role"),
     "model_limit": ("1", "limit of that number"),
-    "mean_tension": ("N", "mean of the tension"),
+    "both_cables_tension_mean": ("N", "mean of the sum of the tensions of both cables"),
     "first_contact_tension": ("N", "largest tension of the first contacts"),
     "later_contact_tension": ("N", "largest tension of the later contacts"),
     "largest_contact_speed": ("m/s", "speed at which the largest contact began"),
-    "contact_count": ("1", "contacts in the analysed time"),
+    "contact_count": ("1", "times that the slack curtain or line comes taut in the analysed time"),
     "first_contact_count": ("1", "first contacts in the analysed time"),
     "contacts_per_hour": ("1/h", "contacts per hour"),
     "closed_form_tension": ("N", "peak of model A at the speed of the largest first contact"),
@@ -287,8 +282,8 @@ VARIABLES: dict[str, tuple[str, str]] = {
     "speed_limit_low": ("m/s", "largest surface speed without waves at the upper end of drag or impact"),
     "speed_limit_high": ("m/s", "largest surface speed without waves at the lower end of drag or impact"),
     "speed_limit_ratio": ("1", "largest surface speed without waves over the current of the case"),
-    "limit_utilisation": ("1", "largest utilisation of all components"),
-    "component_utilisation": ("1", "utilisation of each component"),
+    "limit_factored_utilisation": ("1", "largest load times safety factor over strength of all components"),
+    "component_factored_utilisation": ("1", "load times safety factor over strength of each component"),
     "speed_limit": ("m/s", "largest surface speed without waves"),
     "steady_load": ("", "steady load"),
     "steady_low": ("", "steady load at the lower end of its band"),
@@ -299,7 +294,7 @@ VARIABLES: dict[str, tuple[str, str]] = {
     "wave_high": ("", "what waves add to the steady load at the end at which they are judged"),
     "weaker_load": ("", "load in a weaker current in which the plate governs, judged with that of the case"),
     "weaker_high": ("", "load in a weaker current at its upper end"),
-    "utilisation_high": ("1", "governing load at the upper end times safety factor over capacity"),
+    "factored_utilisation_high": ("1", "governing load at the upper end times safety factor over capacity"),
     "wave_load": ("", "what waves add to the steady load"),
     "second_wave_load": ("", "what waves add to the steady load by the model that does not lead"),
     "impact_load": ("", "what an impact adds to the steady load"),
@@ -313,13 +308,12 @@ VARIABLES: dict[str, tuple[str, str]] = {
     "load_bound": ("", "whether the governing load is only a bound"),
     "capacity": ("", "strength"),
     "safety_factor": ("1", "safety factor asked"),
-    "utilisation": ("1", "governing load times safety factor over strength"),
     # the whole span through time
     "line_tension_peak_since_row": (
         "N",
         "highest tension of each cable over the span and of each anchor line since the row before",
     ),
-    "both_tension": ("N", "sum of the highest tensions of both cables"),
+    "both_cables_tension_peak_since_row": ("N", "sum of the highest tensions of both cables"),
     "kinetic_energy": ("J", "kinetic energy of the span and of the water that it moves"),
     "elastic_energy": ("J", "elastic energy of cables, skirt and lines"),
     "energy_balance": ("J", "energy less work since the start: minus what viscosity and scheme took"),
@@ -329,15 +323,12 @@ VARIABLES: dict[str, tuple[str, str]] = {
     "line_tension_maximum": ("N", "highest tension"),
     "line_peak_time": ("s", "when the tension is highest"),
     "slack_share": ("1", "part of the time that the line is slack"),
-    "line_contacts": ("1", "times that the slack line comes taut"),
-    "line_snaps": ("1", "contacts whose peak exceeds the threshold"),
     "slack_level": ("N", "tension up to which the line is slack"),
-    "snap_rise_time": ("s", "median rise of the snaps, from a tenth to nine tenths"),
-    "both_peak": ("N", "highest sum of the tensions of both cables"),
-    "both_peak_time": ("s", "time at which it occurs"),
+    "median_rise_time": ("s", "median rise of the snaps, from a tenth to nine tenths"),
+    "both_cables_peak_time": ("s", "time at which it occurs"),
     "upper_peak": ("N", "highest tension of the upper cable"),
     "lower_peak": ("N", "highest tension of the lower cable"),
-    "anchor_peak": ("N", "highest tension of an anchor line"),
+    "anchor_line_tension_maximum": ("N", "highest tension of an anchor line"),
     "run_of": ("", "run that was made on this and another mesh"),
     "event_peak": ("N", "highest tension in the event; larger of the means over the realisations on each mesh"),
     "event_peak_low": ("N", "lowest of the highest tensions in the runs of the event"),
@@ -420,21 +411,22 @@ _RUN = "/[^/]+/dynamic/[^/]+(/s)?"
 ALWAYS = {
     "/record": (
         "record_tension cable_peak_tension cable_plateau_tension cable_impact_tension cable_noise release_time "
-        "taut_time peak_time plateau_start rise_time sum_peak_tension sum_plateau_tension sum_impact_tension "
-        "peak_missed"
+        "taut_time peak_time plateau_start rise_time both_cables_peak_tension both_cables_plateau_tension "
+        "both_cables_impact_tension peak_missed"
     ),
     "/[^/]+/models": "model_role model_of model_reason model_value model_limit",
     "/[^/]+/statics": (
         "span unstretched_length span_ratio skirt_length surface_speed normal_speed flow_angle froude_number "
         "load_ratio drowning_speed joint_spacing anchor_spacing slack_toe_gap slack_float_reserve_ratio "
-        "slack_float_reserve_ratio_low slack_float_reserve_ratio_high flooded_net_weight flooded_sinks air_to_surface "
-        "holding_buoyancy drag_coefficient blockage hanging_length effective_depth flare toe_depth toe_gap toe_speed "
-        "toe_speed_ratio toe_speed_undisturbed section_load top_load toe_hold top_pull sheet_tension cable_tension "
-        "upper_tension lower_tension sag strain end_angle anchor_force end_anchor_force anchor_line_tension "
-        "float_reserve float_reserve_ratio planning_load planning_drag_coefficient planning_confirmed "
-        "steady_load_bound cause_line_load cause_cable_tension cause_anchor_force cause_effective_depth "
-        "compared_line_load compared_span_load compared_ratio compared_standing compared_why direction_span_load "
-        "direction_cable_tension direction_anchor_force "
+        "slack_float_reserve_ratio_low slack_float_reserve_ratio_high flooded_net_weight flooded_sinks "
+        "air_to_surface holding_buoyancy drag_coefficient blockage hanging_length effective_depth flare toe_depth "
+        "toe_gap toe_speed toe_speed_ratio toe_speed_undisturbed section_load top_load toe_hold top_pull "
+        "sheet_tension cable_tension upper_tension lower_tension sag strain end_angle anchor_horizontal_tension "
+        "end_anchor_horizontal_tension anchor_tension float_reserve float_reserve_ratio planning_load "
+        "planning_drag_coefficient planning_confirmed steady_load_bound cause_line_load cause_cable_tension "
+        "cause_anchor_horizontal_tension cause_effective_depth compared_line_load compared_span_load compared_ratio "
+        "compared_standing compared_why direction_span_load direction_cable_tension "
+        "direction_anchor_horizontal_tension "
         + " ".join(f"steady_{name} steady_{name}_low steady_{name}_high" for name, _, _ in QUANTITIES)
     ),
     "/[^/]+/statics_laws": (
@@ -448,11 +440,11 @@ ALWAYS = {
     "/[^/]+/section": "section_x section_z section_tension section_angle profile_z profile_speed",
     "/[^/]+/plan": "plan_x plan_y plan_angle",
     "/[^/]+/impact": (
-        "impact_tension impact_time impact_upper_tension impact_lower_tension impact_skirt_tension impact_ratio "
-        "assumption counts start_speed draught added_mass added_mass_in_depth taut_sag shape_number cable_stiffness "
-        "tension_coefficient cauchy_number froude_number rise_ratio relative_step time_step plateau_tension spread "
-        "design_tension steps_to_peak march_tension march_error march_predicted_error forward_iteration_converges "
-        "reverse_iteration_converges"
+        "both_cables_impact_tension impact_time impact_upper_tension impact_lower_tension impact_skirt_tension "
+        "impact_ratio assumption counts start_speed draught added_mass added_mass_in_depth taut_sag shape_number "
+        "cable_stiffness tension_coefficient cauchy_number froude_number rise_ratio relative_step time_step "
+        "both_cables_plateau_tension spread design_tension steps_to_peak march_tension march_error "
+        "march_predicted_error forward_iteration_converges reverse_iteration_converges"
     ),
     "/[^/]+/impact/A": "displacement speed tension",
     "/[^/]+/impact/A2": "tension upper_tension lower_tension",
@@ -462,13 +454,13 @@ ALWAYS = {
         "frame_section_z"
     ),
     "/[^/]+/waves/[^/]+": (
-        "maximum_tension maximum_tension_low maximum_tension_high mean_tension later_contact_tension contact_count "
-        "first_contact_count"
+        "both_cables_tension_maximum both_cables_tension_maximum_low both_cables_tension_maximum_high "
+        "both_cables_tension_mean later_contact_tension contact_count first_contact_count"
     ),
     "/[^/]+/waves/[^/]+/[^/]+": (
         "flow_speed position speed tension contact_time contact_speed contact_tension contact_side contact_first"
     ),
-    "/[^/]+/weaker_currents": "maximum_tension maximum_tension_low judged_tension",
+    "/[^/]+/weaker_currents": "both_cables_tension_maximum both_cables_tension_maximum_low judged_tension",
     "/[^/]+/anchor_loads": (
         "significant_height wave_period wave_angle effective_height squared_velocity mean_squared_velocity "
         "orbital_speed float_speed rope_tension rope_tension_pretensioned wire_tension total_rope_tension "
@@ -478,23 +470,25 @@ ALWAYS = {
     "/[^/]+/loads": (
         "steady_load steady_low steady_high wave_load wave_high wave_source second_wave_load second_wave_source "
         "impact_load impact_low impact_high impact_source dynamic_load dynamic_source governing_load governing_high "
-        "governing governing_source load_bound load_unit capacity safety_factor utilisation utilisation_high case_load "
-        "case_high case_governing case_bound weaker_load weaker_high weaker_source"
+        "governing governing_source load_bound load_unit capacity safety_factor factored_utilisation "
+        "factored_utilisation_high case_load case_high case_governing case_bound weaker_load weaker_high "
+        "weaker_source"
     ),
     "/[^/]+/limits": (
-        "limit_height limit_governing limit_bound limit_height_alone limit_note limit_utilisation limit_component "
-        "component_utilisation surface_speed speed_limit speed_limit_low speed_limit_high speed_limit_ratio "
-        "drowning_speed design_limit_height design_limit_low design_limit_scatter"
+        "limit_height limit_governing limit_bound limit_height_alone limit_note limit_factored_utilisation "
+        "limit_component component_factored_utilisation surface_speed speed_limit speed_limit_low speed_limit_high "
+        "speed_limit_ratio drowning_speed design_limit_height design_limit_low design_limit_scatter"
     ),
     "/[^/]+/limits/rose": "rose_height rose_governing rose_bound",
     "/[^/]+/dynamic": (
-        "both_peak both_peak_time upper_peak lower_peak anchor_peak skirt_peak "
-        + " ".join(f"{trial}_peak" for trial in TRIALS)
+        "both_cables_tension_maximum both_cables_peak_time upper_peak lower_peak anchor_line_tension_maximum "
+        "skirt_peak " + " ".join(f"{trial}_peak" for trial in TRIALS)
     ),
     _RUN: (
-        "line_tension_peak_since_row both_tension kinetic_energy elastic_energy energy_balance mid_span_x mid_toe_x "
-        "mid_toe_z line_tension_maximum line_peak_time slack_share line_contacts line_snaps slack_level snap_threshold "
-        "snap_rise_time " + " ".join(f"line_{trial}" for trial in TRIALS)
+        "line_tension_peak_since_row both_cables_tension_peak_since_row kinetic_energy elastic_energy "
+        "energy_balance mid_span_x mid_toe_x mid_toe_z line_tension_maximum line_peak_time slack_share "
+        "contact_count snap_count slack_level snap_threshold median_rise_time "
+        + " ".join(f"line_{trial}" for trial in TRIALS)
     ),
     f"{_RUN}/frames": ("node_position bar_tension triangle_tension bar_nodes triangle_nodes frame_time bar_line"),
 }
@@ -509,9 +503,9 @@ TOGETHER = {
     "/[^/]+/impact": ("record_ratio record_time_ratio record_upper_ratio record_lower_ratio",),
     "/[^/]+/waves/[^/]+": (
         (
-            "period velocity_amplitude excursion threshold_excursion first_contact_tension largest_contact_speed "
-            "closed_form_tension periods_left_out periods_analysed repeats_after lower_wave_tension lower_wave_height "
-            "judged_tension"
+            "period velocity_amplitude water_excursion threshold_water_excursion first_contact_tension "
+            "largest_contact_speed closed_form_tension periods_left_out periods_analysed repeats_after "
+            "lower_wave_tension lower_wave_height judged_tension"
         ),
         (
             "significant_height realisations contacts_per_hour snaps_per_hour taut_share weibull_shape weibull_scale "

@@ -52,14 +52,14 @@ def rest_headlines(groups: Mapping[str, xr.Dataset], anchors: Mapping[str, str],
 def _pulls(rest: xr.Dataset, network: xr.Dataset, level: str, model: str) -> Iterator[Headline]:
     for condition in (str(name) for name in rest["condition"].values):
         for point in _of_kind(network, "fixed"):
-            load = rest["load"].sel(condition=condition, point=point).values
+            load = rest["point_load"].sel(condition=condition, point=point).values
             value = float(np.linalg.norm(load))
-            band, settled = band_at_rest(rest, network, "load_of_mesh", condition, point=point)
+            band, settled = band_at_rest(rest, network, "point_load_of_mesh", condition, point=point)
             if not (value if band is None else band.high) > 0.0:
                 continue
             words = f"horizontal {math.hypot(*load[:2]) / 1e3:.3g} kN, upwards {max(float(load[2]), 0.0) / 1e3:.3g} kN"
             found = Headline(
-                "anchor_load", "largest pull on a fixed point at rest", value, "N",
+                "point_load", "largest pull on a fixed point at rest", value, "N",
                 ", ".join(filter(None, (point, condition, level))), model, band, detail=words, part=point,
             )  # fmt: skip
             yield found if settled else _open(found)

@@ -59,7 +59,7 @@ def rest_of(problem: NetworkProblem, network: Network, flow: Flow) -> CoupledEqu
     Raises
     ------
     ConvergenceError
-        When there is no rest.
+        When there is no equilibrium.
     """
     bodies = {plan.name: plan.body(network.water) for plan in problem.bodies}
     return find_coupled_equilibrium(network, bodies, flow=flow)
@@ -139,7 +139,7 @@ def coupled_sensitivity(
     peak: float,
     steps: tuple[float, float],
     progress: Progress,
-    rest_flow: Flow | None,
+    equilibrium_flow: Flow | None,
     checked: PeakSensitivity | None = None,
     **options: Any,
 ) -> PeakSensitivity:
@@ -147,7 +147,7 @@ def coupled_sensitivity(
 
     Where step and mesh were ``checked`` the viscosity is left.
 
-    ``steps`` are those of the run, of network and bodies [s], ``rest_flow`` that in which the start is at rest;
+    ``steps`` are those of the run, of network and bodies [s], ``equilibrium_flow`` that in which the start is at rest;
     ``options`` are those of :func:`moyai.coupled.simulate.simulate_coupled`.
 
     Raises
@@ -157,7 +157,7 @@ def coupled_sensitivity(
     """
     bodies, start, placed = _start(problem, network, rest)
     last = any(strand.bars[-1] == bar and strand.bars.size > 1 for strand in placed.strands)
-    finer, state = refined_start(placed, 2, start, rest_flow)
+    finer, state = refined_start(placed, 2, start, equilibrium_flow)
     # a step given by hand is the longest that is stable on the given mesh
     shorter = {} if options.get("step") is None else {"step": 0.5 * options["step"]}
     cases: tuple[tuple[str, Network, State, int, dict[str, Any]], ...] = (

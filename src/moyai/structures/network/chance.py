@@ -98,7 +98,7 @@ def one_seed_of_snaps(groups: Mapping[str, xr.Dataset], level: str, run: str, sc
     summary = groups.get(f"/{level}/dynamic")
     if scatter.size or summary is None or not irregular(groups, level, run):
         return []
-    snaps = "snaps" in summary and bool((summary["snaps"].sel(run=run).values > 0.0).any())
+    snaps = "snap_count" in summary and bool((summary["snap_count"].sel(run=run).values > 0.0).any())
     if not (snaps or LANDING in str(summary.attrs.get(f"doubt {run}", "")) or _near_slack(groups, level, run)):
         return []
     # realisations of bodies are not run together
@@ -147,7 +147,7 @@ def of_pull(
     Where the bed holds a line by its friction the pull of a whole record may stay at its rest, while that of another
     one grows by what passes the friction: as much as the tension over the bed, at most.
     """
-    values = series["highest_load"].sel(point=point, measure="size").values
+    values = series["point_load_peak_since_row"].sel(point=point, measure="size").values
     found, network = chance_of(series, values), groups.get(f"/{level}/network")
     if found is None or network is None or not irregular(groups, level, run):
         return found, ""

@@ -65,7 +65,8 @@ def loads_of(plan: BodyPlan, dataset: xr.Dataset, water: Water) -> WaveLoads:
     try:
         found = WaveLoads.from_dataset(
             dataset, displaced_volume=area * given.draught,
-            rest=(plan.position[0], plan.position[1], 0.5 * plan.size[2] - given.draught), rest_yaw=plan.rotation[2],
+            equilibrium_position=(plan.position[0], plan.position[1], 0.5 * plan.size[2] - given.draught),
+            equilibrium_yaw=plan.rotation[2],
             origin=given.origin, stiffness=np.zeros((6, 6)), memory=given.memory,
         )  # fmt: skip
     except InputError as error:
@@ -157,7 +158,7 @@ def loads_on_time(problem: NetworkProblem, plan: RunPlan) -> list[Notice]:
             try:
                 excitation = body.loads.excitation(plan.waves)
                 if excitation is not None:
-                    excitation.force(0.0, np.zeros(3), body.loads.rest_yaw, 1.0)
+                    excitation.force(0.0, np.zeros(3), body.loads.equilibrium_yaw, 1.0)
             except InputError as error:
                 raise InputError(
                     f"run '{plan.name}': {error.fault.message}",

@@ -276,7 +276,7 @@ def _peak_uncertainty(
         few = any(few_bars(assembly, name) for name in assembly.lines)
         if checked is None and affordable(history, bool(why) or few):
             checked = check_peak(
-                assembly, history, motions, governing, starts[0], plan.skip, options, reported, plan.rest_flow
+                assembly, history, motions, governing, starts[0], plan.skip, options, reported, plan.equilibrium_flow
             )
         elif checked is None and LANDING not in why:
             checked = check_event(assembly, history, motions, *event)
@@ -318,13 +318,13 @@ def _sensitivity(
     if coupled is not None:
         peak = float(np.nanmax(history.peak_at(bar)[history.time >= after]))
         return coupled_sensitivity(
-            problem, assembly.network, hung, bar, after, peak, (history.step, coupled.step), progress, plan.rest_flow,
-            checked, motions=motions, **_of_bodies(options),
+            problem, assembly.network, hung, bar, after, peak, (history.step, coupled.step), progress,
+            plan.equilibrium_flow, checked, motions=motions, **_of_bodies(options),
         )  # fmt: skip
     # built anew, the finer network may drop what its materials gathered: the plain call refines the network itself
     return peak_sensitivity(
-        assembly.network, motions, bar=bar, after=after, start=begin, rest_flow=plan.rest_flow, progress=progress,
-        **options,
+        assembly.network, motions, bar=bar, after=after, start=begin, equilibrium_flow=plan.equilibrium_flow,
+        progress=progress, **options,
     )  # fmt: skip
 
 

@@ -172,7 +172,7 @@ def rest_dataset(assembly: Assembly, found: dict[str, Equilibrium], stiffness: A
         "tension": (("condition", "bar"), tension),
         "residual": ("condition", np.array([rest.residual for rest in found.values()])),
         "point_position": (("condition", "point", "axis"), without_noise(position[:, nodes], size)),
-        "load": (("condition", "point", "axis"), without_noise(load, float(np.max(np.abs(load), initial=0.0)))),
+        "point_load": (("condition", "point", "axis"), without_noise(load, float(np.max(np.abs(load), initial=0.0)))),
     }
     for key, values in line_numbers(assembly, tension).items():
         data[key] = (("condition", "line"), values)
@@ -230,7 +230,7 @@ def stiffness_at_driven(assembly: Assembly, rest: Equilibrium, flow: Flow, step:
     Raises
     ------
     ConvergenceError
-        When a displaced network finds no rest.
+        When a displaced network finds no equilibrium.
     """
     network, names = assembly.network, driven_names(assembly)
     if not names:

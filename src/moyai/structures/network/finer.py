@@ -198,7 +198,7 @@ def check_finer(
     if line not in every:
         return None
     # at the start of a run that is not at rest another mesh jerks, and friction on the bed keeps that in the pulls
-    pulls = {} if plan.rest_flow is None else of("pulls")
+    pulls = {} if plan.equilibrium_flow is None else of("pulls")
     return replace(every[line], lines=every, pulls=pulls, held=of("held"))
 
 
@@ -222,14 +222,14 @@ def _finer_mesh(problem: NetworkProblem, own: _Mesh, plan: RunPlan, bodies: bool
         finer = assemble(finer_problem(problem), own.assembly.level)
         network, start = finer.network, State.at_rest(finer.network)
         parts = finer.judged | dict(finer.net_bars)
-        if plan.rest_flow is not None and not bodies:
-            start = _rest_of_nets(finer, plan.rest_flow).state
+        if plan.equilibrium_flow is not None and not bodies:
+            start = _rest_of_nets(finer, plan.equilibrium_flow).state
         made = _Mesh(finer, network, start, None, parts, 2.0)
     else:
         network, start = refined(own.assembly.network, 2, own.start)
         parts = {name: np.concatenate([2 * bars, 2 * bars + 1]) for name, bars in own.parts.items()}
         made = _Mesh(own.assembly, network, start, None, parts)
-    if bodies and plan.rest_flow is not None:
-        hung = rest_of(problem, network, plan.rest_flow)
+    if bodies and plan.equilibrium_flow is not None:
+        hung = rest_of(problem, network, plan.equilibrium_flow)
         made = replace(made, network=hung.network, start=hung.state, hung=hung)
     return made

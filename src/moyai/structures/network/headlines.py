@@ -396,22 +396,26 @@ def _anchor(groups: Mapping[str, xr.Dataset], peaks: list[_Peak]) -> list[Headli
     for level, summary in _levels(groups, "dynamic"):
         network = groups[f"/{level}/network"]
         fixed = [str(n) for n, kind in zip(network["point"].values, network["point_kind"].values) if kind == "fixed"]
-        if "load_peak" not in summary:
+        if "point_load_maximum" not in summary:
             continue
         for run in (str(name) for name in summary["run"].values):
             mine = [peak for peak in peaks if (peak.level, peak.run) == (level, run)]
             most = max(mine, key=lambda peak: peak.value, default=None)
             for point in fixed:
                 row = summary.sel(run=run, point=point)
-                value = float(row["load_peak"])
+                value = float(row["point_load_maximum"])
                 if not math.isfinite(value):
                     continue
-                parts = [float(row["load_horizontal"]), float(row["load_upwards"])]
-                scatter = scatter_of(summary, "load_of_realisation", run, point=point, measure="size")
+                parts = [float(row["point_horizontal_load_maximum"]), float(row["point_upward_load_maximum"])]
+                scatter = scatter_of(summary, "point_load_maximum_of_realisation", run, point=point, measure="size")
                 own, bound = _band_of_pull(groups, (level, run, point), value, most, scatter)
                 if scatter.size:
                     value, *parts = (
-                        float(scatter_of(summary, "load_of_realisation", run, point=point, measure=measure).mean())
+                        float(
+                            scatter_of(
+                                summary, "point_load_maximum_of_realisation", run, point=point, measure=measure
+                            ).mean()
+                        )
                         for measure in ("size", "horizontal", "upwards")
                     )
                 said = f"horizontal {parts[0] / 1e3:.3g} kN, upwards {parts[1] / 1e3:.3g} kN, each at its own largest"
@@ -426,7 +430,7 @@ def _anchor(groups: Mapping[str, xr.Dataset], peaks: list[_Peak]) -> list[Headli
                 doubtful = "; ".join(dict.fromkeys(filter(None, [doubtful, *chaos])))
                 bound, said = open_end or bound, "; ".join(dict.fromkeys(filter(None, [said, *why, doubtful])))
                 one = Headline(
-                    "anchor_load", "largest pull on a fixed point", value, "N", _place(groups, level, point, run),
+                    "point_load", "largest pull on a fixed point", value, "N", _place(groups, level, point, run),
                     DYNAMIC, own, bound, detail=said, part=point, bound_by=doubtful,
                 )  # fmt: skip
                 found.append(one)
@@ -498,17 +502,19 @@ def _offsets(groups: Mapping[str, xr.Dataset], anchors: Mapping[str, str]) -> li
     for level, summary in _levels(groups, "dynamic"):
         network = groups.get(f"/{level}/network")
         for run in summary["run"].values:
-            if "excursion" in summary and network is not None:
+            if "point_excursion" in summary and network is not None:
                 for point, kind in zip(network["point"].values, network["point_kind"].values):
                     if kind not in ("fixed", "driven"):
-                        value = float(summary["excursion"].sel(run=run, point=point))
+                        value = float(summary["point_excursion"].sel(run=run, point=point))
                         at = (level, str(run), str(point), "point")
                         found = _offset(groups, at, value, f"{still}, heave included", 3, anchors)
                         offsets.append(
                             with_mesh_of_rest(found, groups, level, "point", str(point), anchors.get(str(point)))
                         )
-            for solid in summary["solid"].values if "offset" in summary else ():
-                value, lean = (float(summary[name].sel(run=run, solid=solid)) for name in ("offset", "highest_lean"))
+            for solid in summary["solid"].values if "largest_offset" in summary else ():
+                value, lean = (
+                    float(summary[name].sel(run=run, solid=solid)) for name in ("largest_offset", "highest_lean")
+                )
                 at = (level, str(run), str(solid), "solid")
                 found = _offset(groups, at, value, still, 2, anchors)
                 offsets.append(with_mesh_of_rest(found, groups, level, "solid", str(solid), anchors.get(str(solid))))
@@ -532,7 +538,7 @@ def _offset(
     value, said, away = swinging or (value, said, away)
     scatter = np.zeros(0)
     if kind == "point":
-        of = "excursion" if swinging is None else "distance_from_anchor"
+        of = "point_excursion" if swinging is None else "distance_from_anchor"
         scatter = scatter_of(groups[f"/{level}/dynamic"], f"{of}_of_realisation", run, point=name)
     if scatter.size:
         value = float(scatter.mean())

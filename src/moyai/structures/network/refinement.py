@@ -310,7 +310,7 @@ def check_peak(
     skip: float,
     options: Mapping[str, Any],
     progress: Progress,
-    rest_flow: Flow | None = None,
+    equilibrium_flow: Flow | None = None,
 ) -> PeakSensitivity | None:
     """Run again with half the step and with every bar cut in two; return the highest tension of each in a line.
 
@@ -330,7 +330,7 @@ def check_peak(
     options : mapping
         Arguments of :func:`moyai.flexible.simulation.simulate`.
     progress : Progress
-    rest_flow : Flow, optional
+    equilibrium_flow : Flow, optional
         In which ``begin`` is at rest.
 
     Returns
@@ -356,7 +356,7 @@ def check_peak(
         if found.status != "converged":
             raise ConvergenceError(found.message, parameter="sensitivity")
         made = _peaks_of(assembly, found, kept, skip, of_parts)
-        if rest_flow is None:
+        if equilibrium_flow is None:
             # what another mesh makes of a place between its nodes jerks at the start, and friction on the bed keeps it
             begun = _early(assembly, found, skip)
             pulls = {n: pull for n, pull in made.pulls.items() if begun.get(n, 0.0) <= JERK * early.get(n, 0.0)}
@@ -364,7 +364,7 @@ def check_peak(
         return made
 
     try:
-        finer, state = refined_start(history.network, 2, begin, rest_flow)
+        finer, state = refined_start(history.network, 2, begin, equilibrium_flow)
         exact, given = options.get("safety") == 1.0, options.get("step")
 
         def shorter(factor: int) -> dict[str, float]:
@@ -377,7 +377,7 @@ def check_peak(
             factor = 2
             while factor * bars.size < DAMPED_BARS:
                 factor *= 2
-            calm, state = refined_start(history.network, factor, begin, rest_flow)
+            calm, state = refined_start(history.network, factor, begin, equilibrium_flow)
             variants.append((damped_bars(calm), state, factor, shorter(factor)))
         made = each_at_once(again, variants, progress)
         mesh, step = made[0], own if exact else made[1]

@@ -276,7 +276,7 @@ def with_finer_meshes(
         return np.array([np.concatenate([one, np.full((count - len(one), *one.shape[1:]), np.nan)]) for one in values])
 
     data: dict[str, object] = {
-        "load_of_mesh": (("condition", "mesh", "point"), of("pulls")),
+        "point_load_of_mesh": (("condition", "mesh", "point"), of("pulls")),
         "point_position_of_mesh": (("condition", "mesh", "point", "axis"), of("places")),
         "lift_of_mesh": (("condition", "mesh"), lifts),
     }
@@ -372,10 +372,10 @@ def reach_at_rest(rest: xr.Dataset, network: xr.Dataset, key: str, condition: st
     if key not in rest:
         return None
     here = rest.sel(condition=condition)
-    here = here.isel(mesh=np.isfinite(here["load_of_mesh"].values).all(axis=1))
+    here = here.isel(mesh=np.isfinite(here["point_load_of_mesh"].values).all(axis=1))
     lines = here["line_tension_of_mesh"].values if "line_tension_of_mesh" in here else np.zeros((here.sizes["mesh"], 0))
     return Reach.of(
-        here[key].sel(of).values, _floor(lines, here["load_of_mesh"].values), _few(network), _clear_of(here, of)
+        here[key].sel(of).values, _floor(lines, here["point_load_of_mesh"].values), _few(network), _clear_of(here, of)
     )  # fmt: skip
 
 

@@ -90,7 +90,7 @@ def earlier_run(result: Result, level: str, run: str, nodes: int) -> Earlier | N
         return None
     tree: Any = result.tree
     series, frames = tree[path].to_dataset(inherit=False), tree[f"{path}/frames"].to_dataset(inherit=False)
-    if "highest_load" not in series:
+    if "point_load_peak_since_row" not in series:
         raise InputError(
             f"the run '{run}' of the earlier result lacks what runs hold today", parameter="settings.resume",
             remedy="run it from its start",

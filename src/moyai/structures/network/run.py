@@ -248,7 +248,7 @@ def _at_rest(
         rest = found[name]
         collected.checks.append(
             IdentityCheck(
-                f"{said}rest in {name}: forces left", rest.residual, BALANCE,
+                f"{said}equilibrium in {name}: forces left", rest.residual, BALANCE,
                 "largest force left on a free node over the largest force at work",
             )
         )  # fmt: skip
@@ -321,7 +321,7 @@ def _weight_check(assembly: Assembly, found: dict[str, Equilibrium], said: str, 
     scale = max(abs(weight), 1e-3 * float(np.abs(rest.tension).max(initial=0.0)))
     collected.checks.append(
         IdentityCheck(
-            f"{said}rest in still water: weight", abs(float(pull) + weight) / max(scale, 1e-300), BALANCE,
+            f"{said}equilibrium in still water: weight", abs(float(pull) + weight) / max(scale, 1e-300), BALANCE,
             "upward pull on all held points equals minus the weight in water of what is free",
         )
     )  # fmt: skip

@@ -55,7 +55,7 @@ class RunPlan:
     #: Why so much; empty where all counts.
     skip_rule: str = ""
     #: In which the network is at rest where the run starts; ``None`` as built.
-    rest_flow: Flow | None = None
+    equilibrium_flow: Flow | None = None
     #: Time over which waves, current and motions grow from nothing [s].
     growth: float = 0.0
 
@@ -102,7 +102,7 @@ def run_plans(problem: NetworkProblem, water: Water) -> tuple[RunPlan, ...]:
         waves = plan.period if plan.waves is not None else math.nan
         skip, rule = start_up(problem.settings.skip, used, plan.duration, waves)
         grown = [plan.flow.ramp, plan.flow.wave_ramp, *(motion.growth(plan.duration) for motion in used)]
-        found.append(replace(plan, skip=skip, skip_rule=rule, rest_flow=rest, growth=max(grown)))
+        found.append(replace(plan, skip=skip, skip_rule=rule, equilibrium_flow=rest, growth=max(grown)))
     return tuple(found)
 
 

@@ -62,8 +62,8 @@ def series_of(assembly: Assembly, plan: RunPlan, history: History) -> xr.Dataset
         "elastic_energy": ("time", history.elastic_energy),
         "work": ("time", history.work),
         "point_position": (("time", "point", "axis"), history.position[:, place]),
-        "load": (("time", "point", "axis"), pulls(network, nodes, position, history.tension)),
-        "highest_load": (
+        "point_load": (("time", "point", "axis"), pulls(network, nodes, position, history.tension)),
+        "point_load_peak_since_row": (
             ("time", "point", "measure"), highest_pulls(network, nodes, position, history.tension, highest)
         ),
     }  # fmt: skip

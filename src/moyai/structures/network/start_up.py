@@ -48,5 +48,5 @@ def start_up(
     length = min(begin.period, 0.5 * duration)
     window = "one mean period" if length == begin.period else "half the run, less than a period"
     how = ", in which it grows from nothing" if plan.growth(duration) else ""
-    away = f" {begin.away:.3g} m from its place of rest" if begin.away > 0.0 else ""
+    away = f" {begin.away:.3g} m from its place at rest" if begin.away > 0.0 else ""
     return length, f"{window} of the motion '{plan.name}'{how}: it begins{away} at {begin.speed:.3g} m/s"

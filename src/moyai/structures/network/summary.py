@@ -24,11 +24,16 @@ if TYPE_CHECKING:
 
 
 #: Loads on points in the summary, in the order of :func:`moyai.structures.network.equilibrium.highest_pulls`.
-LOADS = ("load_peak", "load_horizontal", "load_upwards", "load_downwards")
+LOADS = (
+    "point_load_maximum",
+    "point_horizontal_load_maximum",
+    "point_upward_load_maximum",
+    "point_downward_load_maximum",
+)
 #: Highest pulls on fixed points in the runs that check the mesh, and where they are found there.
 LOADS_AGAIN = {
-    "load_half_step": "half_step", "load_double_mesh": "double_mesh", "load_damped": "damped",
-    "load_finest": "finest",
+    "point_load_half_step": "half_step", "point_load_double_mesh": "double_mesh", "point_load_damped": "damped",
+    "point_load_finest": "finest",
 }  # fmt: skip
 #: Runs that check the mesh, and where their peaks are found.
 CHECKS = {"the run itself": "peak", **{key: key for key in LOADS_AGAIN.values()}}
@@ -38,12 +43,12 @@ OF_REALISATIONS = {
     "tension": ("line_tension_maximum_of_realisation", ("line",)),
     "part_tension": ("part_tension_maximum_of_realisation", ("part",)),
     "net_tension": ("net_tension_maximum_of_realisation", ("net",)),
-    "load": ("load_of_realisation", ("point", "measure")),
-    "excursion": ("excursion_of_realisation", ("point",)),
+    "load": ("point_load_maximum_of_realisation", ("point", "measure")),
+    "excursion": ("point_excursion_of_realisation", ("point",)),
     "reach": ("distance_from_anchor_of_realisation", ("point",)),
 }  # fmt: skip
 #: Motions of bodies in the summary.
-SOLID = ("offset", "mean_offset", "heave_range", "roll_range", "pitch_range", "yaw_range", "highest_lean")
+SOLID = ("largest_offset", "mean_offset", "heave_range", "roll_range", "pitch_range", "yaw_range", "highest_lean")
 
 
 def summary_dataset(
@@ -110,7 +115,7 @@ def summary_dataset(
         coords["part"] = list(assembly.parts)
     if any("check" in dims for dims, _ in out.values()):
         coords["check"] = list(CHECKS)
-    if "load_of_realisation" in out:
+    if "point_load_maximum_of_realisation" in out:
         coords["measure"] = MEASURES
     if {"net_tension_maximum_of_realisation", "net_tension_of_check", "held_pull_of_check"} & out.keys():
         coords["net"] = list(assembly.net_bars)
@@ -169,7 +174,8 @@ def _line_summary(problem: NetworkProblem, item: NetworkRun, lines: list[str]) -
     chosen = _counted(item)
     keys = (
         "line_tension_maximum", "peak_time", "start_peak", "end_peak", "line_tension_mean", "deviation", "utilisation",
-        "slack_time", "slack_share", "contacts", "snaps", "snap_threshold", "largest_snap", "shortest_rise",
+        "slack_time", "slack_share", "contact_count", "snap_count", "snap_threshold", "largest_snap",
+        "shortest_rise_time",
     )  # fmt: skip
     out: dict[str, list[float]] = {key: [] for key in keys}
     time = item.series["time"].values[chosen]
@@ -197,9 +203,9 @@ def _line_summary(problem: NetworkProblem, item: NetworkRun, lines: list[str]) -
             peaks = [contact.peak for contact in snaps.snaps]
             values |= {
                 "slack_time": snaps.slack_time, "slack_share": snaps.slack_time / max(float(np.ptp(time)), 1e-300),
-                "contacts": float(len(snaps.contacts)), "snaps": float(len(peaks)),
+                "contact_count": float(len(snaps.contacts)), "snap_count": float(len(peaks)),
                 "snap_threshold": snaps.threshold, "largest_snap": max(peaks, default=math.nan),
-                "shortest_rise": min((contact.rise_time for contact in snaps.snaps), default=math.nan),
+                "shortest_rise_time": min((contact.rise_time for contact in snaps.snaps), default=math.nan),
             }  # fmt: skip
         for key in keys:
             out[key].append(values.get(key, math.nan))
@@ -222,9 +228,9 @@ def _part_summary(item: NetworkRun) -> dict[str, Array]:
 
 def _point_summary(item: NetworkRun, names: list[str], rest: Array | None) -> dict[str, list[float]]:
     chosen = _counted(item)
-    out: dict[str, list[float]] = {key: [] for key in (*LOADS, "excursion")}
+    out: dict[str, list[float]] = {key: [] for key in (*LOADS, "point_excursion")}
     for number, name in enumerate(names):
-        load = item.series["highest_load"].sel(point=name).values[chosen]
+        load = item.series["point_load_peak_since_row"].sel(point=name).values[chosen]
         place = item.series["point_position"].sel(point=name).values[chosen]
         if load.size == 0 or not np.isfinite(load).any():
             for key in out:
@@ -233,7 +239,7 @@ def _point_summary(item: NetworkRun, names: list[str], rest: Array | None) -> di
         for key, highest in zip(LOADS, np.nanmax(load, axis=0), strict=True):
             out[key].append(float(highest))
         origin = rest[number] if rest is not None else place[0]
-        out["excursion"].append(float(np.nanmax(np.linalg.norm(place - origin, axis=1))))
+        out["point_excursion"].append(float(np.nanmax(np.linalg.norm(place - origin, axis=1))))
     return out
 
 

@@ -47,8 +47,8 @@ VARIABLES: dict[str, tuple[str, str]] = {
     "point_position": ("m", "place of the point, z above still water"),
     "start_highest": ("N", "highest tension at the start of the line since the row before"),
     "end_highest": ("N", "highest tension at the end of the line since the row before"),
-    "load": ("N", "pull of the lines on the point"),
-    "highest_load": ("N", "highest pull of the lines on the point since the row before"),
+    "point_load": ("N", "pull of the lines on the point"),
+    "point_load_peak_since_row": ("N", "highest pull of the lines on the point since the row before"),
     "solid_position": ("m", "place of the origin of its axes, the middle of boxes and cylinders, z above still water"),
     "solid_angle": ("rad", "roll, pitch and yaw of the body"),
     "solid_rotation": ("1", "from the axes of the body to those of the site"),
@@ -71,7 +71,7 @@ VARIABLES: dict[str, tuple[str, str]] = {
     ),
     "held_pull_of_mesh": ("N", "pull of the net on its fixed and driven knots together at rest on each mesh"),
     "lift_of_mesh": ("m", "most that points may move on each mesh where a bar at the touchdown is too heavy to lift"),
-    "load_of_mesh": ("N", "pull of the lines on the point at rest on each mesh"),
+    "point_load_of_mesh": ("N", "pull of the lines on the point at rest on each mesh"),
     "point_position_of_mesh": ("m", "place of the point at rest on each mesh, z above still water"),
     "solid_position_of_mesh": ("m", "place of the body at rest on each mesh, z above still water"),
     "residual": ("1", "largest force left over the largest force at work"),
@@ -88,11 +88,7 @@ VARIABLES: dict[str, tuple[str, str]] = {
     "utilisation": ("1", "highest tension over the breaking load"),
     "slack_time": ("s", "time that the line is slack"),
     "slack_share": ("1", "part of the time that the line is slack"),
-    "contacts": ("1", "times that the slack line comes taut"),
-    "snaps": ("1", "contacts whose peak exceeds the threshold"),
     "snap_threshold": ("N", "threshold of a snap"),
-    "largest_snap": ("N", "highest peak of a snap"),
-    "shortest_rise": ("s", "shortest rise from a tenth to nine tenths of a snap's peak"),
     "contact_time": ("s", "when the line comes taut"),
     "contact_slack": ("s", "how long it was slack before"),
     "contact_peak": ("N", "highest tension until it is slack again"),
@@ -106,29 +102,31 @@ VARIABLES: dict[str, tuple[str, str]] = {
     "finest": ("N", "peak on the finest mesh of its event"),
     "discretisation_error": ("1", "relative change of the peak with step and mesh together"),
     "viscosity_effect": ("1", "largest relative change of the peak with the viscosity"),
-    "load_peak": ("N", "highest pull on the point"),
-    "load_half_step": ("N", "highest pull on the fixed point with half the step"),
-    "load_double_mesh": ("N", "highest pull on the fixed point with every bar cut in two"),
-    "load_damped": ("N", "highest pull on the fixed point on a finer mesh of damped bars"),
-    "load_finest": ("N", "highest pull on the fixed point on the finest mesh of the event"),
+    "point_load_maximum": ("N", "highest pull on the point"),
+    "point_load_half_step": ("N", "highest pull on the fixed point with half the step"),
+    "point_load_double_mesh": ("N", "highest pull on the fixed point with every bar cut in two"),
+    "point_load_damped": ("N", "highest pull on the fixed point on a finer mesh of damped bars"),
+    "point_load_finest": ("N", "highest pull on the fixed point on the finest mesh of the event"),
     "line_tension_of_check": ("N", "highest tension of the line in the run and in those that check its mesh"),
     "net_tension_of_check": ("N", "highest tension in the net in the run and in those that check its mesh"),
     "line_tension_maximum_of_realisation": ("N", "largest tension of the line in each realisation"),
     "net_tension_maximum_of_realisation": ("N", "largest tension in the net in each realisation"),
-    "load_of_realisation": ("N", "largest pull on the point in each realisation"),
-    "excursion_of_realisation": ("m", "largest distance of the point from rest in still water in each realisation"),
+    "point_load_maximum_of_realisation": ("N", "largest pull on the point in each realisation"),
+    "point_excursion_of_realisation": (
+        "m",
+        "largest distance of the point from rest in still water in each realisation",
+    ),
     "distance_from_anchor_of_realisation": (
         "m",
         "largest horizontal distance of the point from the only fixed point that holds it in each realisation",
     ),
     "seed_of_realisation": ("1", "seed of each realisation"),
-    "load_horizontal": ("N", "highest horizontal pull on the point"),
-    "load_upwards": ("N", "highest upward pull on the point"),
-    "load_downwards": ("N", "highest downward pull on the point"),
-    "excursion": ("m", "largest distance of the point from its place at rest, by direction"),
+    "point_horizontal_load_maximum": ("N", "highest horizontal pull on the point"),
+    "point_upward_load_maximum": ("N", "highest upward pull on the point"),
+    "point_downward_load_maximum": ("N", "highest downward pull on the point"),
+    "point_excursion": ("m", "largest distance of the point from its place at rest, by direction"),
     "still_place": ("m", "place of the point at rest in still water, from which excursions count"),
     "still_place_of_solid": ("m", "place of the body at rest in still water"),
-    "offset": ("m", "largest horizontal distance of the body from where the run begins"),
     "mean_offset": ("m", "horizontal distance of the body's mean place from where the run begins"),
     "heave_range": ("m", "highest less lowest place of the body"),
     "roll_range": ("rad", "largest less smallest roll of the body"),
@@ -198,14 +196,15 @@ ALWAYS = {
         "line_segments wave_speed travel_time breaking_load point_node point_kind point_diameter body_node "
         "body_height body_volume body_mass"
     ),
-    "/[^/]+/statics": "position tension residual point_position load line_tension_maximum",
+    "/[^/]+/statics": "position tension residual point_position point_load line_tension_maximum",
     "/[^/]+/modes": "mode_frequency mode_period mode_shape longest_period_double_mesh",
     "/[^/]+/dynamic": "line_tension_maximum line_tension_mean",
     "/[^/]+/time/[^/]+": (
-        "kinetic_energy elastic_energy work point_position load highest_load line_tension_peak_since_row"
+        "kinetic_energy elastic_energy work point_position point_load point_load_peak_since_row "
+        "line_tension_peak_since_row"
     ),
     "/[^/]+/time/[^/]+/frames": "position tension final_position final_velocity",
-    "/[^/]+/time/[^/]+/contacts": ("contact_line contact_time contact_slack contact_peak contact_rise is_snap"),
+    "/[^/]+/time/[^/]+/contact_count": ("contact_line contact_time contact_slack contact_peak contact_rise is_snap"),
 }
 #: What one statement of a run writes: a group holds all of it or none.
 TOGETHER = {
@@ -216,21 +215,24 @@ TOGETHER = {
     "/[^/]+/statics": (
         "line_tension_maximum line_tension_minimum start_tension end_tension",
         "solid_position solid_angle",
-        "load_of_mesh point_position_of_mesh lift_of_mesh",
+        "point_load_of_mesh point_position_of_mesh lift_of_mesh",
         "net_tension_of_mesh held_pull_of_mesh held_level_pull_of_mesh",
     ),
     "/[^/]+/dynamic": (
         (
             "line_tension_maximum peak_time start_peak end_peak line_tension_mean deviation utilisation slack_time "
-            "slack_share contacts snaps snap_threshold largest_snap shortest_rise"
+            "slack_share contact_count snap_count snap_threshold largest_snap shortest_rise_time"
         ),
-        "load_peak load_horizontal load_upwards load_downwards excursion",
-        ("offset mean_offset heave_range roll_range pitch_range yaw_range highest_lean"),
+        (
+            "point_load_maximum point_horizontal_load_maximum point_upward_load_maximum "
+            "point_downward_load_maximum point_excursion"
+        ),
+        ("largest_offset mean_offset heave_range roll_range pitch_range yaw_range highest_lean"),
         (
             "sensitivity_peak half_step double_mesh half_viscosity double_viscosity discretisation_error "
             "viscosity_effect damped finest"
         ),
-        "load_half_step load_double_mesh load_damped load_finest",
+        "point_load_half_step point_load_double_mesh point_load_damped point_load_finest",
         "part_tension_maximum part_peak_time part_tension_mean",
     ),
     "/[^/]+/time/[^/]+": (

@@ -19,7 +19,7 @@ from moyai.structures.units.unjudged import Seas
 
 #: Weights of sinkers that are the same.
 _ALIKE = 1.005
-_PULL, _UPLIFT, _LIES = "maximum_anchor_horizontal_tension", "maximum_anchor_vertical_tension", "least_grounded_length"
+_PULL, _UPLIFT, _LIES = "anchor_horizontal_tension_maximum", "anchor_vertical_tension_maximum", "least_grounded_length"
 
 
 _LEAVES = "the line leaves the bed within its band"
@@ -30,12 +30,12 @@ def anchor_headlines(seas: Seas) -> Iterator[Headline]:
     pulls = each_of(seas, _PULL)
     if not pulls:
         return
-    items = [_load(found, "anchor_horizontal_load", "Horizontal pull on an anchor") for found in pulls]
+    items = [_load(found, "anchor_horizontal_tension", "Horizontal pull on an anchor") for found in pulls]
     asked = [_asked_by(pull) for pull in pulls]
     yield from with_unknown(pulls, [_capacity(found, item, asked) for found, item in zip(pulls, items, strict=True)])
     yield from with_unknown(pulls, items)
     lifts = each_of(seas, _UPLIFT)
-    lifted = [_load(found, "anchor_uplift", "Uplift at an anchor") for found in lifts]
+    lifted = [_load(found, "anchor_vertical_tension", "Uplift at an anchor") for found in lifts]
     # before a sea that is known to lift nothing
     ranked = [
         replace(found, value=1e-300) if math.isnan(item.value) and found.value == 0.0 else found

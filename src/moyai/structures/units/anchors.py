@@ -30,9 +30,10 @@ _TURNS = 50
 _ACROSS, _UP, _LIFT, _LIES = 0, 1, 3, 4
 _CURVE = ("tension", "horizontal_tension", "vertical_tension", "grounded_length")
 #: Loads of anchors of a sea, and those with lines at rest at the largest tension with these.
-LOADS = ("maximum_anchor_horizontal_tension", "maximum_anchor_vertical_tension", "least_grounded_length")
+LOADS = ("anchor_horizontal_tension_maximum", "anchor_vertical_tension_maximum", "least_grounded_length")
 AT_REST = (
-    "anchor_horizontal_tension_lines_at_rest", "anchor_vertical_tension_lines_at_rest", "grounded_length_lines_at_rest",
+    "anchor_horizontal_tension_maximum_lines_at_rest", "anchor_vertical_tension_maximum_lines_at_rest",
+    "grounded_length_lines_at_rest",
 )  # fmt: skip
 TENSION = "line_tension_of_anchor_loads"
 

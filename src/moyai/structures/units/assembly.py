@@ -29,7 +29,7 @@ IMBALANCE_LIMIT = 1.0  # per cent of the displacement of a unit
 #: Half width that corners of curves are rounded over at rest, over the length of a unit; wider ones lead the way there
 ROUNDING = 1e-4
 _WIDER = (100.0, 10.0, 1.0)
-#: The same in smaller steps, the whole load put on by tenths before them, where these find no rest
+#: The same in smaller steps, the whole load put on by tenths before them, where these find no equilibrium
 _SLOWLY = (100.0, 50.0, 20.0, 10.0, 5.0, 2.0, 1.0)
 _SHARES = tuple(0.1 * number for number in range(1, 10))
 _LEVELS = 41  # Simpson points over the draught for the current
@@ -379,7 +379,7 @@ def steady_position(at: RowAtLevel, load: Array, work: Work | None = None) -> Ro
                 reduced = settled([*growing, *((factor, 1.0) for factor in _SLOWLY)])
             except ConvergenceError:
                 raise InputError(
-                    f"{at.name}: the row finds no rest under wind, current and drift: {first.fault.message}",
+                    f"{at.name}: the row finds no equilibrium under wind, current and drift: {first.fault.message}",
                     parameter="lines",
                     remedy="use stronger or more lines",
                 ) from first

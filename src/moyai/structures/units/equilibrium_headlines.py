@@ -53,8 +53,8 @@ def steady_headlines(rests: Rests) -> Iterator[Headline]:
             analysis="static", detail=f"breaking load {spoken(load, 'N', 3)}",
         )  # fmt: skip
     for name, label, variable in (
-        ("anchor_horizontal_load", "Steady horizontal pull on an anchor", "anchor_horizontal_tension"),
-        ("anchor_uplift", "Steady uplift at an anchor", "anchor_vertical_tension"),
+        ("anchor_horizontal_tension", "Steady horizontal pull on an anchor", "anchor_horizontal_tension"),
+        ("anchor_vertical_tension", "Steady uplift at an anchor", "anchor_vertical_tension"),
     ):
         found = [
             (float(load), f"{path.split('/')[1]}, {line}")

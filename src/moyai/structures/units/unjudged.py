@@ -37,9 +37,9 @@ def not_judged(seas: Seas) -> Headline:
         numbers = ", ".join(str(unit) for unit in alone)
         detail.append(f"no face of another unit is opposite these units, no gap of theirs is followed: {numbers}")
     if any(
-        np.isfinite(data["maximum_anchor_horizontal_tension"].values).any()
+        np.isfinite(data["anchor_horizontal_tension_maximum"].values).any()
         for _, data in seas
-        if "maximum_anchor_horizontal_tension" in data
+        if "anchor_horizontal_tension_maximum" in data
     ):
         words.append("the holding of an anchor in its soil")
         detail.append("loads of anchors are numbers of the page, no soil is compared with them")

@@ -28,8 +28,6 @@ VARIABLES: dict[str, tuple[str, str]] = {
     "outline_x": ("m", "section of a unit at rest, across it"),
     "outline_z": ("m", "section of a unit at rest, above still water"),
     "line_unit": ("1", "number of the unit that a line holds"),
-    "anchor_horizontal_tension": ("N", "horizontal pull on the anchor under wind and current"),
-    "anchor_vertical_tension": ("N", "uplift at the anchor under wind and current"),
     "grounded_length": ("m", "length on the bed under wind and current"),
     "anchor_curve_tension": ("N", "tension at the fairlead of a line that is drawn away from its anchor"),
     "anchor_curve_horizontal_tension": ("N", "horizontal tension with it"),
@@ -96,15 +94,18 @@ VARIABLES: dict[str, tuple[str, str]] = {
     "line_tension_bound_of_realisation": ("N", "tension that events which were not rerun cannot pass"),
     "line_tension_maximum_lines_at_rest": ("N", "largest tension with lines at rest at every instant"),
     "lines_in_motion": ("1", "whether the largest tension is that of a line in motion"),
-    "anchor_horizontal_tension_lines_at_rest": ("N", "largest horizontal tension at the anchor with lines at rest"),
-    "anchor_vertical_tension_lines_at_rest": ("N", "largest uplift at the anchor with lines at rest"),
+    "anchor_horizontal_tension_maximum_lines_at_rest": (
+        "N",
+        "largest horizontal tension at the anchor with lines at rest",
+    ),
+    "anchor_vertical_tension_maximum_lines_at_rest": ("N", "largest uplift at the anchor with lines at rest"),
     "grounded_length_lines_at_rest": ("m", "least length on the bed with lines at rest"),
     "line_tension_of_anchor_loads": ("N", "largest tension with lines at rest, to which these loads belong"),
-    "anchor_horizontal_tension_lines_at_rest_of_realisation": (
+    "anchor_horizontal_tension_maximum_lines_at_rest_of_realisation": (
         "N",
         "largest horizontal tension at the anchor with lines at rest in each realisation",
     ),
-    "anchor_vertical_tension_lines_at_rest_of_realisation": (
+    "anchor_vertical_tension_maximum_lines_at_rest_of_realisation": (
         "N",
         "largest uplift at the anchor with lines at rest in each realisation",
     ),
@@ -116,23 +117,21 @@ VARIABLES: dict[str, tuple[str, str]] = {
         "N",
         "largest tension with lines at rest, to which these loads belong, in each realisation",
     ),
-    "maximum_anchor_horizontal_tension": ("N", "largest horizontal tension at the anchor"),
-    "maximum_anchor_horizontal_tension_low": (
+    "anchor_horizontal_tension_maximum_low": (
         "N",
         "largest horizontal tension at the anchor at the low end of the tension",
     ),
-    "maximum_anchor_horizontal_tension_high": (
+    "anchor_horizontal_tension_maximum_high": (
         "N",
         "largest horizontal tension at the anchor at the high end of the tension",
     ),
-    "maximum_anchor_horizontal_tension_of_realisation": (
+    "anchor_horizontal_tension_maximum_of_realisation": (
         "N",
         "largest horizontal tension at the anchor in each realisation",
     ),
-    "maximum_anchor_vertical_tension": ("N", "largest uplift at the anchor"),
-    "maximum_anchor_vertical_tension_low": ("N", "largest uplift at the anchor at the low end of the tension"),
-    "maximum_anchor_vertical_tension_high": ("N", "largest uplift at the anchor at the high end of the tension"),
-    "maximum_anchor_vertical_tension_of_realisation": ("N", "largest uplift at the anchor in each realisation"),
+    "anchor_vertical_tension_maximum_low": ("N", "largest uplift at the anchor at the low end of the tension"),
+    "anchor_vertical_tension_maximum_high": ("N", "largest uplift at the anchor at the high end of the tension"),
+    "anchor_vertical_tension_maximum_of_realisation": ("N", "largest uplift at the anchor in each realisation"),
     "least_grounded_length": ("m", "least length on the bed"),
     "least_grounded_length_low": ("m", "least length on the bed at the low end of the tension"),
     "least_grounded_length_high": ("m", "least length on the bed at the high end of the tension"),
@@ -241,7 +240,7 @@ ALWAYS = {
         "connector_moment_resultant_largest connector_damage_rate elongation_lowest elongation_highest "
         "stretch_across relative_motion_largest relative_turn_largest gap_motion_largest gap_closing_largest "
         "line_tension_mean line_tension_maximum line_tension_minimum least_distance hulls_meet "
-        "anchor_horizontal_tension_lines_at_rest anchor_vertical_tension_lines_at_rest "
+        "anchor_horizontal_tension_maximum_lines_at_rest anchor_vertical_tension_maximum_lines_at_rest "
         "grounded_length_lines_at_rest line_tension_of_anchor_loads"
     ),
     "/[^/]+/time/[^/]+/[^/]+": (
@@ -262,10 +261,10 @@ TOGETHER = {
             "connector_significant_force connector_significant_moment"
         ),
         (
-            "anchor_horizontal_tension_lines_at_rest anchor_vertical_tension_lines_at_rest "
+            "anchor_horizontal_tension_maximum_lines_at_rest anchor_vertical_tension_maximum_lines_at_rest "
             "grounded_length_lines_at_rest line_tension_of_anchor_loads"
         ),
-        "maximum_anchor_horizontal_tension maximum_anchor_vertical_tension least_grounded_length",
+        "anchor_horizontal_tension_maximum anchor_vertical_tension_maximum least_grounded_length",
         *_BANDS,
     ),
     "/[^/]+/map/[^/]+": (
@@ -279,13 +278,13 @@ TOGETHER = {
             "connector_moment_resultant_largest_of_realisation line_tension_maximum_of_realisation "
             "largest_offset_of_realisation gap_motion_largest_of_realisation gap_closing_largest_of_realisation "
             "connector_damage_rate_of_realisation maximum_motion_of_realisation "
-            "anchor_horizontal_tension_lines_at_rest_of_realisation "
-            "anchor_vertical_tension_lines_at_rest_of_realisation "
+            "anchor_horizontal_tension_maximum_lines_at_rest_of_realisation "
+            "anchor_vertical_tension_maximum_lines_at_rest_of_realisation "
             "grounded_length_lines_at_rest_of_realisation line_tension_of_anchor_loads_of_realisation"
         ),
-        "maximum_anchor_horizontal_tension maximum_anchor_vertical_tension least_grounded_length",
+        "anchor_horizontal_tension_maximum anchor_vertical_tension_maximum least_grounded_length",
         (
-            "maximum_anchor_horizontal_tension_of_realisation maximum_anchor_vertical_tension_of_realisation "
+            "anchor_horizontal_tension_maximum_of_realisation anchor_vertical_tension_maximum_of_realisation "
             "least_grounded_length_of_realisation"
         ),
         "line_tension_maximum_lines_at_rest lines_in_motion",

@@ -219,7 +219,7 @@ def _governing(pages: StudyPages) -> tuple[Block, ...]:
         lines: Any = pages.result.tree["/assessment/lines"]
     except KeyError:
         return tuple(blocks)
-    used = lines["utilisation"]
+    used = lines["factored_utilisation"]
     rows = []
     for code in used.coords["code"].values:
         for line in used.coords["line"].values:

@@ -76,7 +76,10 @@ def _values(group: Group, name: str, *dims: str) -> Array:
 
 
 def _key_figures(runs: Group, agreement: Group) -> Block:
-    tension, coefficient = _values(runs, "impact_tension", "run"), _values(runs, "tension_coefficient", "run")
+    tension, coefficient = (
+        _values(runs, "both_cables_impact_tension", "run"),
+        _values(runs, "tension_coefficient", "run"),
+    )
     items = [
         KeyFigure("Runs", str(tension.size), ", ".join(dict.fromkeys(_texts(runs)))),
         KeyFigure(
@@ -119,8 +122,9 @@ def _run_tables(runs: Group) -> list[Block]:
     names = runs.labels("run")
     singles = (
         ("current_speed", "U", "m/s"), ("start_speed", "start speed", "m/s"), ("draught", "d", "m"),
-        ("length", "l", "m"), ("peak_tension", "peak", "N"), ("plateau_tension", "drag level", "N"),
-        ("impact_tension", "impact", "N"), ("rise_time", "rise", "s"), ("tension_coefficient", "C_T", ""),
+        ("length", "l", "m"), ("both_cables_peak_tension", "peak", "N"),
+        ("both_cables_plateau_tension", "drag level", "N"),
+        ("both_cables_impact_tension", "impact", "N"), ("rise_time", "rise", "s"), ("tension_coefficient", "C_T", ""),
         ("froude", "Fr", ""), ("span_ratio", "B/l", ""), ("depth_ratio", "d/h", ""), ("cauchy", "C_E", ""),
     )  # fmt: skip
     # tensions with their own decimals: the impact of a steel wire is a hundred times that of a fishing line
@@ -140,7 +144,7 @@ def _run_tables(runs: Group) -> list[Block]:
             apart.append(Column(f"{cable} {title}", list(values), "N", uniform=False))
     models = runs.labels("impact_model")
     tension = _values(runs, "model_tension", "run", "impact_model")
-    over = tension / _values(runs, "impact_tension", "run")[:, None]
+    over = tension / _values(runs, "both_cables_impact_tension", "run")[:, None]
     ratios = [Column("Run", names)] + [Column(model, list(over[:, k])) for k, model in enumerate(models)]
     return [
         Table("runs", "Runs", (*head, *measured), note="Tensions are sums of both cables."),
@@ -155,7 +159,7 @@ def _run_tables(runs: Group) -> list[Block]:
 def _scatter(runs: Group, material: str, word: str) -> Block:
     """Draw records against models for one material (figure 16 of the paper)."""
     own = np.array(_texts(runs)) == material
-    measured = _values(runs, "impact_tension", "run")[own]
+    measured = _values(runs, "both_cables_impact_tension", "run")[own]
     models, tension = runs.labels("impact_model"), _values(runs, "model_tension", "run", "impact_model")[own]
     shown = [model for model in _SHOWN if model in models]
     series = [

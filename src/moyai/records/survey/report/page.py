@@ -56,7 +56,7 @@ TENSION_COLUMNS = (
     ("third", "T_1/3"),
     ("mean", "T_mean"),
     ("waves", "waves"),
-    ("snaps", "snaps"),
+    ("snap_count", "snaps"),
     ("lag", "lag"),
 )
 

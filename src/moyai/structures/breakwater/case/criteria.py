@@ -73,7 +73,7 @@ def criteria(model: Any, given: Any) -> Iterator[Criterion]:
     )
     if given.greatest_uplift is None and moored:
         yield plain_criterion("greatest_uplift", 0.0, UPLIFT_SOURCE)
-    yield from given_criteria(given, {"greatest_anchor_load": "anchor_horizontal_load"})
+    yield from given_criteria(given, {"greatest_anchor_load": "anchor_horizontal_tension"})
     yield from _transmission(given.greatest_transmission)
     if "statics" not in model.analyses:
         return

@@ -113,8 +113,8 @@ def irregular_sea(
     load = np.array([line.breaking_load for line in unit.lines])
     out |= {
         "line_tension_maximum": ("line", extremes.tension),
-        "maximum_anchor_vertical_tension": ("line", extremes.anchor_vertical),
-        "maximum_anchor_horizontal_tension": ("line", extremes.anchor_horizontal),
+        "anchor_vertical_tension_maximum": ("line", extremes.anchor_vertical),
+        "anchor_horizontal_tension_maximum": ("line", extremes.anchor_horizontal),
         "least_grounded_length": ("line", extremes.grounded),
         "largest_offset": ((), extremes.offset),
         "maximum_utilisation": ("line", np.where(np.isfinite(load), extremes.tension / load, np.nan)),

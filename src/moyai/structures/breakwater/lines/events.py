@@ -176,8 +176,8 @@ def event_numbers(unit: FloatingUnit, run: TimeRun) -> dict[str, Array]:
     level = np.sqrt(np.maximum(anchor**2 - uplift**2, 0.0))
     return {
         "line_tension_maximum": run.peaks[window].max(axis=0),
-        "maximum_anchor_vertical_tension": uplift.max(axis=0),
-        "maximum_anchor_horizontal_tension": level.max(axis=0),
+        "anchor_vertical_tension_maximum": uplift.max(axis=0),
+        "anchor_horizontal_tension_maximum": level.max(axis=0),
         **motion_summary(unit, run, window, begin),
     }
 

@@ -180,9 +180,9 @@ def _line_peak(
     period = float(data.variables["period"].values[row]) if regular else math.nan
     return LinePeak(
         level, sea, line, period, tension, mean, load,
-        of("maximum_anchor_vertical_tension"), of("maximum_anchor_horizontal_tension"), of("least_grounded_length"),
-        model, known, scatter, scatter_of("maximum_anchor_vertical_tension"),
-        scatter_of("maximum_anchor_horizontal_tension"),
+        of("anchor_vertical_tension_maximum"), of("anchor_horizontal_tension_maximum"), of("least_grounded_length"),
+        model, known, scatter, scatter_of("anchor_vertical_tension_maximum"),
+        scatter_of("anchor_horizontal_tension_maximum"),
         scatter_of("line_tension_bound") if moving else scatter, float(data.attrs.get("duration", math.nan)),
         drift_left_out(data), factor, chain,
     )  # fmt: skip
@@ -324,7 +324,7 @@ def anchor_headlines(groups: Mapping[str, xr.Dataset], levels: list[str], peaks:
                      text="not known")
             for name, label in (
                 ("anchor_capacity_required", "Holding capacity that an anchor needs"),
-                ("anchor_uplift", "Uplift at an anchor"),
+                ("anchor_vertical_tension", "Uplift at an anchor"),
             )
         ]  # fmt: skip
         hidden = [replace(item, shown=False) for item in (*pulls, *all_judged(map(_uplift, known)))]
@@ -348,7 +348,7 @@ def anchor_headlines(groups: Mapping[str, xr.Dataset], levels: list[str], peaks:
 
 def _pull(peak: LinePeak) -> Headline:
     return Headline(
-        "anchor_horizontal_load", "Horizontal pull on an anchor", peak.horizontal, "N", peak.where, peak.model,
+        "anchor_horizontal_tension", "Horizontal pull on an anchor", peak.horizontal, "N", peak.where, peak.model,
         band=peak.band(peak.horizontal, peak.horizontal_scatter), bound=peak.proves,
     )  # fmt: skip
 
@@ -356,7 +356,7 @@ def _pull(peak: LinePeak) -> Headline:
 def _uplift(peak: LinePeak) -> Headline:
     none = peak.vertical <= 0.0
     return Headline(
-        "anchor_uplift", "Uplift at an anchor", max(peak.vertical, 0.0), "N", peak.where, peak.model,
+        "anchor_vertical_tension", "Uplift at an anchor", max(peak.vertical, 0.0), "N", peak.where, peak.model,
         band=None if none else peak.band(peak.vertical, np.maximum(peak.vertical_scatter, 0.0)),
         text="none" if none else "", bound=peak.proves,
     )  # fmt: skip
@@ -364,14 +364,17 @@ def _uplift(peak: LinePeak) -> Headline:
 
 def _unknown_anchors(pulled: list[LinePeak], shown: LinePeak | None) -> list[Headline]:
     """Return, not shown, the loads of anchors that are not known, without the uplift of the line that is shown."""
-    names = {"anchor_uplift": "Uplift at an anchor", "anchor_horizontal_load": "Horizontal pull on an anchor"}
+    names = {
+        "anchor_vertical_tension": "Uplift at an anchor",
+        "anchor_horizontal_tension": "Horizontal pull on an anchor",
+    }
     own = None if shown is None else (shown.level, shown.sea, shown.line)
     return [
         Headline(name, label, math.nan, "N", peak.where, peak.model, text=f"{peak.where}: not known, {_beyond(peak)}",
                  shown=False)
         for peak in _farthest_beyond(pulled)
         for name, label in names.items()
-        if name != "anchor_uplift" or (peak.level, peak.sea, peak.line) != own
+        if name != "anchor_vertical_tension" or (peak.level, peak.sea, peak.line) != own
     ]  # fmt: skip
 
 

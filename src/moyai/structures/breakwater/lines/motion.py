@@ -77,8 +77,8 @@ class LinesInMotion:
         """Return what goes into the time series of the run."""
         out: dict[str, Any] = {
             "line_tension_peak_since_row": (("time", "line"), _thinned_peaks(self.peak, every)),
-            "anchor_tension_history": (("time", "line"), self.anchor[::every]),
-            "anchor_uplift": (("time", "line"), self.uplift[::every]),
+            "anchor_tension": (("time", "line"), self.anchor[::every]),
+            "anchor_vertical_tension": (("time", "line"), self.uplift[::every]),
             "grounded_length_history": (("time", "line"), self.grounded[::every]),
         }
         names = [line.name for line in unit.lines]
@@ -103,7 +103,7 @@ class LinesInMotion:
                 "contact_count",
                 "snap_count",
                 "largest_snap",
-                "least_rise_time",
+                "shortest_rise_time",
             )
         }
         for name, record in self.snaps.items():
@@ -117,7 +117,7 @@ class LinesInMotion:
             out["contact_count"][column], out["snap_count"][column] = len(contacts), len(snaps)
             if snaps:
                 out["largest_snap"][column] = max(contact.peak for contact in snaps)
-                out["least_rise_time"][column] = min(contact.rise_time for contact in snaps)
+                out["shortest_rise_time"][column] = min(contact.rise_time for contact in snaps)
         return out
 
     def snap_table(self, unit: FloatingUnit) -> xr.Dataset:

@@ -77,7 +77,7 @@ class LineNetwork:
         Raises
         ------
         InputError
-            When the lines find no rest there.
+            When the lines find no equilibrium there.
         """
         return carried_along(self.network, self.rest.state, places)
 
@@ -134,7 +134,9 @@ def line_network(unit: FloatingUnit, dynamics: LineDynamics) -> LineNetwork | No
         rest = solve_equilibrium(network)
     except ConvergenceError as error:
         raise InputError(
-            f"the lines in motion find no rest: {error.fault.message}", parameter="lines", remedy=error.fault.remedy
+            f"the lines in motion find no equilibrium: {error.fault.message}",
+            parameter="lines",
+            remedy=error.fault.remedy,
         ) from error
     names = [line.name for _, line, _ in chosen]
     return LineNetwork(

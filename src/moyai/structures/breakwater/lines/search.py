@@ -136,7 +136,7 @@ def events_in_motion(
     Raises
     ------
     InputError
-        When the lines find no rest.
+        When the lines find no equilibrium.
     ConvergenceError
         When a rerun does not come to its end.
     KeyboardInterrupt

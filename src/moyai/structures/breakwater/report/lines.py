@@ -22,13 +22,13 @@ COLUMNS = (
     ("line_tension_maximum_lines_at_rest", "The same, lines at rest", "N"),
     ("line_tension_mean", "Mean", "N"),
     ("line_tension_minimum", "Smallest", "N"),
-    ("maximum_uplift", "Uplift at anchor", "N"),
+    ("anchor_vertical_tension_maximum_lines_in_motion", "Uplift at anchor", "N"),
     ("least_grounded_length", "Least length on bed", "m"),
     ("slack_time", "Time slack", "s"),
     ("contact_count", "Contacts", ""),
     ("snap_count", "Snaps", ""),
     ("largest_snap", "Largest snap", "N"),
-    ("least_rise_time", "Shortest rise", "s"),
+    ("shortest_rise_time", "Shortest rise", "s"),
     ("peak_change_twice_the_bars", "Twice the bars", "%"),
     ("peak_change_half_the_step", "Half the step", "%"),
     ("peak_change_twice_the_damping", "Twice the damping", "%"),
@@ -132,7 +132,7 @@ def _figure(level: BreakwaterLevel, sea: Sea, run: Group, window: tuple[float, f
     if time is None or moving is None or still is None:
         return None
     names = run.labels("line")
-    uplift = run.real("anchor_uplift", "time", "line")
+    uplift = run.real("anchor_vertical_tension", "time", "line")
     grounded = run.real("grounded_length_history", "time", "line")
     pose, other = run.real("position", "time", "dof"), run.real("position_lines_at_rest", "time", "dof")
     # a line at rest at every instant has neither uplift nor length on the bed here

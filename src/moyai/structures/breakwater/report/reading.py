@@ -137,7 +137,7 @@ class SeaNumbers:
 
 
 _TENSION_NAMES = ("line_tension_maximum", "most_probable_maximum_tension")
-_UPLIFT_NAMES = ("maximum_anchor_vertical_tension",)
+_UPLIFT_NAMES = ("anchor_vertical_tension_maximum",)
 
 
 def sea_numbers(level: BreakwaterLevel, sea: Sea, domain: str) -> SeaNumbers | None:
@@ -244,7 +244,7 @@ def _largest_tension(
 def _largest_offset(sea: Sea, group: Group, domain: str) -> float:
     """Return the largest sway from rest: that of the records in time, mean + amplitude in the frequency domain."""
     if domain == "time":
-        for name in ("maximum_excursion", *(("maximum_motion",) if sea.regular else ())):
+        for name in ("largest_offset_by_dof", *(("maximum_motion",) if sea.regular else ())):
             largest = _largest(group, (name,), dof="sway")
             if math.isfinite(largest):
                 return largest

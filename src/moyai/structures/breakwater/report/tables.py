@@ -212,7 +212,7 @@ def lines_at_rest(level: BreakwaterLevel) -> Table | None:
             column("unstretched_length", "Length", "m", 4),
             column("grounded_length", "On the bed", "m"),
             column("fairlead_tension", "Tension at fairlead", "N"),
-            column("horizontal_tension", "Horizontal", "N"),
+            column("anchor_horizontal_tension", "Horizontal", "N"),
             column("fairlead_vertical_tension", "Vertical at fairlead", "N"),
             column("anchor_vertical_tension", "Vertical at anchor", "N"),
             column("breaking_load", "Breaking load", "N"),

@@ -323,7 +323,7 @@ def _gathered(unit: FloatingUnit, members: list[Realisation], moved: NDArray[np.
     if "line_tension_maximum" not in data:
         return members[0].summary, 0
     tension = data.line_tension_maximum.values
-    excursion = data.maximum_excursion.values
+    excursion = data.largest_offset_by_dof.values
     followed = excursion[:, 0]
     if tension.shape[1]:
         loads = np.array([line.breaking_load for line in unit.lines])
@@ -338,13 +338,13 @@ def _gathered(unit: FloatingUnit, members: list[Realisation], moved: NDArray[np.
         if name in data:
             out[name] = data[name].isel(member=shown)
     still = lines_at_rest(unit) & ~moved
-    names = ("maximum_anchor_vertical_tension", "maximum_anchor_horizontal_tension", "line_tension_bound")
+    names = ("anchor_vertical_tension_maximum", "anchor_horizontal_tension_maximum", "line_tension_bound")
     for name in names:
         if name in data:
             out[f"{name}_of_realisation"] = (("member", "line"), data[name].values)
     return out.assign(
         line_tension_maximum_of_realisation=(("member", "line"), tension),
-        maximum_excursion_of_realisation=(("member", "dof"), excursion),
+        largest_offset_by_dof_of_realisation=(("member", "dof"), excursion),
         seed_of_realisation=("member", np.array([one.seed for one in members], dtype=np.int64)),
         lines_in_motion=("line", (~still).astype(np.int8)),
     ), shown
@@ -473,13 +473,13 @@ def _irregular_summary(
         out = {
             "mean_offset": ("dof", mean),
             "maximum_motion": ("dof", np.max(np.abs(position - mean), axis=0)),
-            "maximum_excursion": ("dof", np.max(np.abs(position), axis=0)),
+            "largest_offset_by_dof": ("dof", np.max(np.abs(position), axis=0)),
             "significant_motion": ("dof", _significant(run.time[keep], position)),
             "line_tension_mean": ("line", tension.mean(axis=0)),
             "line_tension_maximum": ("line", whole.peaks[keep].max(axis=0) if len(unit.lines) else np.zeros(0)),
             "significant_tension": ("line", _significant(run.time[keep], tension)),
-            "maximum_anchor_vertical_tension": ("line", vertical),
-            "maximum_anchor_horizontal_tension": ("line", horizontal),
+            "anchor_vertical_tension_maximum": ("line", vertical),
+            "anchor_horizontal_tension_maximum": ("line", horizontal),
             "least_grounded_length": ("line", grounded),
             "mean_drift_force": ((), float(drift_force)),
             "significant_height": ((), 4.0 * float(np.std(run.elevation[keep]))),
@@ -490,8 +490,11 @@ def _irregular_summary(
             level = np.sqrt(np.maximum(lines.anchor[keep] ** 2 - lines.uplift[keep] ** 2, 0.0)).max(axis=0)
             found["least_grounded_length"] = np.where(still, grounded, found["least_grounded_length"])
             out |= {name: ("line", values) for name, values in found.items()}
-            out["maximum_anchor_vertical_tension"] = ("line", np.where(still, vertical, found["maximum_uplift"]))
-            out["maximum_anchor_horizontal_tension"] = ("line", np.where(still, horizontal, level))
+            out["anchor_vertical_tension_maximum"] = (
+                "line",
+                np.where(still, vertical, found["anchor_vertical_tension_maximum_lines_in_motion"]),
+            )
+            out["anchor_horizontal_tension_maximum"] = ("line", np.where(still, horizontal, level))
         load = np.array([line.breaking_load for line in unit.lines])
         out["maximum_utilisation"] = (
             "line",

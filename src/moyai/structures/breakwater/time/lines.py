@@ -22,7 +22,7 @@ SENSITIVITIES = {
     "half the step": "peak_change_half_the_step",
     "twice the internal damping": "peak_change_twice_the_damping",
 }
-STATISTICS = ("slack_time", "longest_slack", "contact_count", "snap_count", "largest_snap", "least_rise_time")
+STATISTICS = ("slack_time", "longest_slack", "contact_count", "snap_count", "largest_snap", "shortest_rise_time")
 
 
 def lines_at_rest(unit: FloatingUnit) -> NDArray[np.bool_]:
@@ -34,7 +34,12 @@ def lines_at_rest(unit: FloatingUnit) -> NDArray[np.bool_]:
 
 def motion_names(dynamics: LineDynamics) -> tuple[str, ...]:
     """Return the variables that lines in motion add to a summary."""
-    own = ("line_tension_maximum_lines_at_rest", "maximum_uplift", "maximum_anchor_tension", "least_grounded_length")
+    own = (
+        "line_tension_maximum_lines_at_rest",
+        "anchor_vertical_tension_maximum_lines_in_motion",
+        "anchor_tension_maximum",
+        "least_grounded_length",
+    )
     return (*own, *STATISTICS, *(SENSITIVITIES.values() if dynamics.sensitivity else ()))
 
 
@@ -60,8 +65,8 @@ def motion_summary(unit: FloatingUnit, run: TimeRun, window: NDArray[np.bool_], 
         rest = other.tension[same].max(axis=0) if same.any() else rest
     out = {
         "line_tension_maximum_lines_at_rest": rest,
-        "maximum_uplift": lines.uplift[window].max(axis=0),
-        "maximum_anchor_tension": lines.anchor[window].max(axis=0),
+        "anchor_vertical_tension_maximum_lines_in_motion": lines.uplift[window].max(axis=0),
+        "anchor_tension_maximum": lines.anchor[window].max(axis=0),
         "least_grounded_length": lines.grounded[window].min(axis=0),
         **lines.statistics(unit, begin),
     }

@@ -90,8 +90,8 @@ def regular_sea(
         "line_tension_maximum",
         "line_tension_minimum",
         "line_tension_mean",
-        "maximum_anchor_vertical_tension",
-        "maximum_anchor_horizontal_tension",
+        "anchor_vertical_tension_maximum",
+        "anchor_horizontal_tension_maximum",
         "least_grounded_length",
         "lines_in_motion",
         "reflection_coefficient",
@@ -315,8 +315,8 @@ def _summary(
         "line_tension_maximum": np.full(kinds, np.nan), "line_tension_minimum": np.full(kinds, np.nan),
         "line_tension_mean": np.full(kinds, np.nan), "reflection_coefficient": np.array(np.nan),
         "transmission_coefficient": np.array(np.nan), "dissipation": np.array(np.nan),
-        "maximum_anchor_vertical_tension": np.full(kinds, np.nan),
-        "maximum_anchor_horizontal_tension": np.full(kinds, np.nan),
+        "anchor_vertical_tension_maximum": np.full(kinds, np.nan),
+        "anchor_horizontal_tension_maximum": np.full(kinds, np.nan),
         "least_grounded_length": np.full(kinds, np.nan), "lines_in_motion": np.zeros(kinds),
     }  # fmt: skip
     if run.status != "converged" or run.time[-1] < settings.analysed_periods * period:
@@ -331,8 +331,8 @@ def _summary(
         "line_tension_maximum": whole.peaks[window].max(axis=0),
         "line_tension_minimum": run.tension[window].min(axis=0),
         "line_tension_mean": run.tension[window].mean(axis=0),
-        "maximum_anchor_vertical_tension": vertical,
-        "maximum_anchor_horizontal_tension": horizontal,
+        "anchor_vertical_tension_maximum": vertical,
+        "anchor_horizontal_tension_maximum": horizontal,
         "least_grounded_length": grounded,
         "lines_in_motion": np.full(kinds, 0.0 if whole.lines is None else 1.0) * ~lines_at_rest(model.unit),
     }
@@ -341,8 +341,10 @@ def _summary(
         level = np.sqrt(np.maximum(lines.anchor[window] ** 2 - lines.uplift[window] ** 2, 0.0)).max(axis=0)
         out |= motion_summary(model.unit, whole, window, float(run.time[window][0]))
         out["least_grounded_length"] = np.where(still, grounded, out["least_grounded_length"])
-        out["maximum_anchor_vertical_tension"] = np.where(still, vertical, out["maximum_uplift"])
-        out["maximum_anchor_horizontal_tension"] = np.where(still, horizontal, level)
+        out["anchor_vertical_tension_maximum"] = np.where(
+            still, vertical, out["anchor_vertical_tension_maximum_lines_in_motion"]
+        )
+        out["anchor_horizontal_tension_maximum"] = np.where(still, horizontal, level)
     hydro = model.hydro.at(np.array([2.0 * math.pi / period]), sea.heading)
     if hydro.has_far_field and sea.height > 0.0 and repeats:
         far = far_field(hydro, found.first[None, None, :] / (0.5 * sea.height))

@@ -138,7 +138,7 @@ def _check_rest(problem: RigidCageProblem, findings: Findings) -> bool:
     """Try to lay the cage at rest at every water level; ``False`` where the current does not suit the model."""
     from moyai.structures.cage.rigid.checks import level_notices
     from moyai.structures.cage.rigid.setup import at_level, lines_of
-    from moyai.structures.cage.rigid.statics import free_floating, rest_with_lines
+    from moyai.structures.cage.rigid.statics import equilibrium_with_lines, free_floating
     from moyai.structures.cage.rigid.waves import current_along
 
     viscosity = problem.kinematic_viscosity
@@ -154,7 +154,7 @@ def _check_rest(problem: RigidCageProblem, findings: Findings) -> bool:
             here = at_level(lines, level)
             free = free_floating(problem.cage, water, viscosity)
             current = problem.environment.current
-            rest = rest_with_lines(problem.cage, here, water, viscosity, current) if here else free
+            rest = equilibrium_with_lines(problem.cage, here, water, viscosity, current) if here else free
             for notice in level_notices(name, problem, here, water, free, rest):
                 if notice.severity == "information":
                     continue

@@ -15,9 +15,9 @@ from moyai.structures.cage.rigid.modes import natural_modes
 from moyai.structures.cage.rigid.pack import pack
 from moyai.structures.cage.rigid.setup import at_level, drowning_depth, lines_of
 from moyai.structures.cage.rigid.statics import (
+    equilibrium_with_lines,
     free_floating,
     reserve_buoyancy,
-    rest_with_lines,
     size_of,
     submerged_weight,
 )
@@ -59,7 +59,7 @@ def _rest(problem: RigidCageProblem, lines: tuple[CageLine, ...], name: str, lev
     cage, water = problem.cage, problem.environment.water_at(level)
     viscosity = problem.kinematic_viscosity
     free = free_floating(cage, water, viscosity)
-    rest = rest_with_lines(cage, lines, water, viscosity, problem.environment.current) if lines else free
+    rest = equilibrium_with_lines(cage, lines, water, viscosity, problem.environment.current) if lines else free
     length, force = ("mm", "gf") if cage.mass < 10.0 else ("m", "N")
     group = "At rest"
     yield Number(group, name, "middle of the cage, floating freely", free.middle_z, length)

@@ -27,7 +27,7 @@ from moyai.structures.cage.flexible.wake import sheltered
 TOLERANCE, SETTLE_ABOVE = 1e-4, 1e-3
 #: The same before Newton's method is asked, and how far it may lead away from there, over the size of a cage.
 LEAD, ASTRAY = 1e-3, 0.05
-#: Steps that Newton's method gets; it takes 10 to 50 where it finds a rest.
+#: Steps that Newton's method gets; it takes 10 to 50 where it finds an equilibrium.
 NEWTON_STEPS = 100
 #: The same from the rest of a cage that differs little.
 NEAR_STEPS = 32
@@ -52,7 +52,7 @@ class CageEquilibrium:
     steps: int
 
 
-def solve_rest(
+def solve_cage_equilibrium(
     model: FlexibleCage,
     built: CageNetwork,
     current: Current | None,
@@ -96,10 +96,10 @@ def solve_rest(
     --------
     >>> import moyai
     >>> from moyai.case import build
-    >>> from moyai.structures import build_cage, solve_rest
+    >>> from moyai.structures import build_cage, solve_cage_equilibrium
     >>> model = build(moyai.load_case(moyai.template("cage"))).at_level(0.0)
     >>> built = build_cage(model)
-    >>> rest = solve_rest(model, built, None)
+    >>> rest = solve_cage_equilibrium(model, built, None)
     >>> cage = built.cages[0]
     >>> round(float(cage.volume(rest.state.position)) / cage.rest_volume, 2)     # of its volume without water
     1.01
@@ -197,13 +197,13 @@ def ring_shape(cage: CageParts, position: Array, built: Array) -> tuple[Array, f
     return middle, float((across.max() - across.min()) / across.mean()), float(warp.max())
 
 
-def horizontal_balance(rest: CageEquilibrium) -> tuple[Array, Array]:
-    """Return the drag on all parts and the pull on all holds: they agree at rest.
+def horizontal_balance(equilibrium: CageEquilibrium) -> tuple[Array, Array]:
+    """Return the drag on all parts and the pull on all holds: they agree at equilibrium.
 
     Parameters
     ----------
-    rest : CageEquilibrium
-        Of :func:`moyai.structures.solve_rest`.
+    equilibrium : CageEquilibrium
+        Of :func:`moyai.structures.solve_cage_equilibrium`.
 
     Returns
     -------
@@ -214,19 +214,19 @@ def horizontal_balance(rest: CageEquilibrium) -> tuple[Array, Array]:
     --------
     >>> import moyai
     >>> from moyai.case import build
-    >>> from moyai.structures import build_cage, horizontal_balance, solve_rest
+    >>> from moyai.structures import build_cage, horizontal_balance, solve_cage_equilibrium
     >>> model = build(moyai.load_case(moyai.template("cage"))).at_level(0.0)
-    >>> drag, pull = horizontal_balance(solve_rest(model, build_cage(model), None))
+    >>> drag, pull = horizontal_balance(solve_cage_equilibrium(model, build_cage(model), None))
     >>> bool(abs(drag).max() < 1.0)                                  # in still water [N]
     True
     """
-    position = rest.state.position
-    water = Flow(current=rest.current).at(0.0, position.T)
-    split = drag_split(rest.built, rest.network, position, np.zeros_like(position), water)
-    pull = pull_on_anchors(rest.built, rest.network, position, rest.tension)
-    return split, (pull + drag_on_holds(rest.built, rest.network, position, water)).sum(axis=0)
+    position = equilibrium.state.position
+    water = Flow(current=equilibrium.current).at(0.0, position.T)
+    split = drag_split(equilibrium.built, equilibrium.network, position, np.zeros_like(position), water)
+    pull = pull_on_anchors(equilibrium.built, equilibrium.network, position, equilibrium.tension)
+    return split, (pull + drag_on_holds(equilibrium.built, equilibrium.network, position, water)).sum(axis=0)
 
 
 __all__ = [
-    "PARTS", "CageEquilibrium", "collar_forces", "horizontal_balance", "ring_shape", "solve_rest",
+    "PARTS", "CageEquilibrium", "collar_forces", "horizontal_balance", "ring_shape", "solve_cage_equilibrium",
 ]  # fmt: skip

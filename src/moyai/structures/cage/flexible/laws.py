@@ -17,7 +17,7 @@ from moyai.structures.cage.flexible.equilibrium import (
     collar_forces,
     horizontal_balance,
     ring_shape,
-    solve_rest,
+    solve_cage_equilibrium,
 )
 from moyai.structures.cage.flexible.loads import pull_on_anchors
 from moyai.structures.cage.flexible.model import FlexibleCage
@@ -64,7 +64,7 @@ def laws_dataset(
         found = rest
         if number:
             other = replace(model, design=replace(model.design, net=replace(model.design.net, law=law)))
-            found = solve_rest(other, build_cage(other), rest.current, start=rest.state)
+            found = solve_cage_equilibrium(other, build_cage(other), rest.current, start=rest.state)
         lines.append(_line_tensions(found))
         rows.append(_numbers(model, found, calm, heading, lines[-1]))
     progress("laws of nets", len(laws), len(laws))
@@ -108,8 +108,8 @@ def _numbers(
         "volume_share": min(float(cage.volume(position)) / cage.rest_volume for cage in built.cages),
         "drag": float(split.sum(axis=0) @ along),
         "line_tension_maximum": max(lines, default=math.nan),
-        "offset": offset,
-        "anchor_pull": float(np.linalg.norm(pulls, axis=1).max()) if built.anchors.size else math.nan,
+        "largest_offset": offset,
+        "anchor_tension_maximum": float(np.linalg.norm(pulls, axis=1).max()) if built.anchors.size else math.nan,
         "net_tension": float(built.net_tension(rest.tension).max()),
         "collar_stress": _collar_stress(model, rest),
         "residual": rest.residual,

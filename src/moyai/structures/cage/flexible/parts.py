@@ -79,6 +79,11 @@ class CageNetwork:
     #: Nodes of the sinkers.
     sinkers: IntArray
 
+    @property
+    def anchor_names(self) -> list[str]:
+        """Names of the anchors: those of their lines."""
+        return [part.name for part in self.lines if part.kind == "anchor"]
+
     def net_tension(self, tension: Array) -> Array:
         """Return the largest tension of each net over the width that a bar stands for, (..., bars) [N] -> (..., cages).
 

@@ -33,7 +33,7 @@ from moyai.structures.cage.flexible.checks import (
     run_notices,
     settling_notices,
 )
-from moyai.structures.cage.flexible.equilibrium import CageEquilibrium, solve_rest
+from moyai.structures.cage.flexible.equilibrium import CageEquilibrium, solve_cage_equilibrium
 from moyai.structures.cage.flexible.law_runs import GoverningWaves, WaveCase, laws_in_wave
 from moyai.structures.cage.flexible.laws import choice_of, laws_dataset
 from moyai.structures.cage.flexible.model import FlexibleCage
@@ -141,12 +141,12 @@ def _steps(problem: FlexibleCageProblem, collected: Collected, progress: Progres
             rests: list[CageEquilibrium] = []
             speeds = _speeds(problem, speed)
             for number, value in enumerate(speeds):
-                progress("rest in the current", number, len(speeds))
+                progress("equilibrium in the current", number, len(speeds))
                 flow = ScaledCurrent(profile, value / speed) if profile is not None and value > 0.0 else None
                 place = (name, value == speed)
                 near = _NEAR.get(place, ()) if problem.settings.nominal else ()
                 start = rests[-1].state if rests else None
-                solve = partial(solve_rest, model, built, flow, start=start, near=near)
+                solve = partial(solve_cage_equilibrium, model, built, flow, start=start, near=near)
                 found = _STILL.of(key, solve) if value == 0.0 else solve()
                 if value in (0.0, speed):
                     _NEAR[place] = (found.state, *_NEAR.get(place, ())[: _MOST_NEAR - 1])
@@ -154,7 +154,7 @@ def _steps(problem: FlexibleCageProblem, collected: Collected, progress: Progres
                 if not problem.settings.nominal or number == len(speeds) - 1:
                     collected.groups[f"{root}/statics"] = statics_dataset(model, speeds[: number + 1], heading, rests)
                 yield
-            progress("rest in the current", len(speeds), len(speeds))
+            progress("equilibrium in the current", len(speeds), len(speeds))
             statics = collected.groups[f"{root}/statics"]
             collected.checks.extend(rest_checks(name, statics))
             collected.notices.extend(rest_notices(name, model, statics, speed))
@@ -169,10 +169,10 @@ def _steps(problem: FlexibleCageProblem, collected: Collected, progress: Progres
                     yield
         if waved:
             if rest is None:
-                rest = solve_rest(model, built, profile)
+                rest = solve_cage_equilibrium(model, built, profile)
                 if laws_wanted and "time" in problem.settings.analyses:
                     # numbers of a sea carry what the laws change, also where the current alone is not asked for
-                    calm = _STILL.of(key, partial(solve_rest, model, built, None))
+                    calm = _STILL.of(key, partial(solve_cage_equilibrium, model, built, None))
                     collected.groups[f"{root}/laws"] = laws_dataset(model, rest, calm, speed, heading, progress)
                     yield
             for sea in problem.seas:

@@ -9,7 +9,12 @@ import numpy as np
 
 from moyai.core.progress import Progress, silent
 from moyai.structures.cage.flexible.build import build_cage
-from moyai.structures.cage.flexible.equilibrium import CageEquilibrium, collar_forces, horizontal_balance, solve_rest
+from moyai.structures.cage.flexible.equilibrium import (
+    CageEquilibrium,
+    collar_forces,
+    horizontal_balance,
+    solve_cage_equilibrium,
+)
 from moyai.structures.cage.flexible.grid_mooring import GridMooring
 from moyai.structures.cage.flexible.model import CageMesh, FlexibleCage
 from moyai.structures.cage.flexible.problem import FlexibleSettings
@@ -121,7 +126,7 @@ def rest_mesh_dataset(model: FlexibleCage, rest: CageEquilibrium) -> xr.Dataset:
         As the case gives it.
     """
     other = coarse_model(model)
-    again = solve_rest(other, build_cage(other), rest.current)
+    again = solve_cage_equilibrium(other, build_cage(other), rest.current)
     return _dataset((VARIANTS[0], COARSER), [_at_rest(model, rest), _at_rest(other, again)])
 
 
@@ -168,7 +173,7 @@ def sensitivity_dataset(
     found.append(largest_numbers(model, run_cage(model, rest, wave, short, step=0.5 * first.history.step)))
     for number, other in enumerate((replace(model, mesh=coarser(model.mesh)), _damped(model))):
         progress("sensitivity", 2 + number, len(VARIANTS))
-        start = solve_rest(other, build_cage(other), rest.current)
+        start = solve_cage_equilibrium(other, build_cage(other), rest.current)
         found.append(largest_numbers(other, run_cage(other, start, wave, short)))
     progress("sensitivity", len(VARIANTS), len(VARIANTS))
     return _dataset(VARIANTS, found, first)
@@ -192,7 +197,7 @@ def coarse_run(model: FlexibleCage, run: CageRun, settings: FlexibleSettings) ->
     """
     other = coarse_model(model)
     wave = run.wave if run.wave.regular else governing_part(run)
-    return run_cage(other, solve_rest(other, build_cage(other), run.rest.current), wave, settings)
+    return run_cage(other, solve_cage_equilibrium(other, build_cage(other), run.rest.current), wave, settings)
 
 
 def governing_part(run: CageRun) -> RigidCageWave:

@@ -24,8 +24,8 @@ _WORST = {
     "worst_net_tension": "net_tension",
     "worst_line_tension_maximum": "line_tension_maximum",
     "worst_utilisation": "utilisation",
-    "worst_anchor_pull": "anchor_pull",
-    "worst_anchor_uplift": "anchor_uplift",
+    "worst_anchor_tension": "anchor_tension",
+    "worst_anchor_vertical_tension": "anchor_vertical_tension",
     "worst_collar_stress": "collar_stress_largest",
 }
 
@@ -94,8 +94,8 @@ def line_numbers(built: CageNetwork, tension: np.ndarray) -> dict[str, np.ndarra
     largest = np.array([float(tension[own].max()) for own in bars])
     broken = np.array([part.breaking_load for part in built.lines])
     return {
-        "tension_lower": np.array([float(tension[own[0]]) for own in bars]),
-        "tension_upper": np.array([float(tension[own[-1]]) for own in bars]),
+        "lower_end_tension": np.array([float(tension[own[0]]) for own in bars]),
+        "upper_end_tension": np.array([float(tension[own[-1]]) for own in bars]),
         "line_tension_maximum": largest,
         "utilisation": largest / broken if len(bars) else largest,
     }
@@ -160,7 +160,7 @@ def statics_dataset(
         )  # fmt: skip
         if built.anchors.size:
             each = pull_on_anchors(built, rest.network, position, rest.tension)
-            add(anchor_pull=np.linalg.norm(each, axis=1), anchor_uplift=np.maximum(each[:, 2], 0.0))
+            add(anchor_tension=np.linalg.norm(each, axis=1), anchor_vertical_tension=np.maximum(each[:, 2], 0.0))
         if built.cages[0].collar_bars and not model.design.collar.rigid:
             forces = collar_forces(model, rest, position, rest.tension)
             for key in ("stress", "axial", "in_plane", "out_of_plane", "torsion"):
@@ -171,15 +171,14 @@ def statics_dataset(
         "collar_place": ("cage", "axis"), "collar_ovality": ("cage",), "collar_warp": ("cage",),
         "net_deflection": ("cage",), "bottom_lift": ("cage",), "net_tension": ("cage",),
         "position": ("node", "axis"), "tension": ("bar",),
-        "tension_lower": ("line",), "tension_upper": ("line",), "line_tension_maximum": ("line",),
+        "lower_end_tension": ("line",), "upper_end_tension": ("line",), "line_tension_maximum": ("line",),
         "utilisation": ("line",),
-        "anchor_pull": ("anchor",), "anchor_uplift": ("anchor",), "collar_stress_largest": ("cage",),
+        "anchor_tension": ("anchor",), "anchor_vertical_tension": ("anchor",), "collar_stress_largest": ("cage",),
         **{
             f"collar_{key}": ("cage", "ring", "around")
             for key in ("stress", "axial", "in_plane", "out_of_plane", "torsion")
         },
     }  # fmt: skip
-    anchors = [part.name for part in built.lines if part.kind == "anchor"]
     # a study keeps what stands over labels alone: the worst of all currents
     worst = {
         name: (
@@ -200,7 +199,7 @@ def statics_dataset(
                 "current_speed": ("current", np.array(speeds)), "part": list(PARTS), "axis": ["x", "y", "z"],
                 "horizontal": ["x", "y"], "cage": [cage.name for cage in built.cages],
                 "line": [part.name for part in built.lines],
-                **({"anchor": anchors} if built.anchors.size else {}),
+                **({"anchor": built.anchor_names} if built.anchors.size else {}),
             },
             attrs={"heading": heading},
         )

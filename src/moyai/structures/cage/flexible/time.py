@@ -292,6 +292,7 @@ def time_dataset(model: FlexibleCage, run: CageRun, settings: FlexibleSettings) 
                 "frame_time": ("frame", time[kept], {"units": "s", "long_name": "time"}),
                 "part": list(PARTS), "axis": ["x", "y", "z"], "horizontal": ["x", "y"],
                 "cage": [cage.name for cage in built.cages], "line": [part.name for part in built.lines],
+                **({"anchor": built.anchor_names} if built.anchors.size else {}),
             },
             attrs={
                 "wave": run.wave.name, "theory": run.wave.theory, "wave_height": run.wave.height,
@@ -373,18 +374,21 @@ def _line_series(
         count.append(len(record.snaps))
         highest.append(max((snap.peak for snap in record.snaps), default=0.0))
     broken = np.array([part.breaking_load for part in built.lines])
+    anchors = [number for number, part in enumerate(built.lines) if part.kind == "anchor"]
     largest = peak[steady].max(axis=0)
     return {
         "line_tension": (("time", "line"), upper),
-        "line_tension_lower": (("time", "line"), lower),
+        "lower_end_tension": (("time", "line"), lower),
         "line_tension_peak_since_row": (("time", "line"), peak),
-        "line_tension_maximum_lower": ("line", lower_peak[steady].max(axis=0)),
-        "line_uplift_lower": ("line", uplift[steady].max(axis=0)),
+        "lower_end_tension_maximum": ("line", lower_peak[steady].max(axis=0)),
+        "anchor_tension": (("time", "anchor"), lower[:, anchors]),
+        "anchor_tension_maximum": ("anchor", lower_peak[steady][:, anchors].max(axis=0)),
+        "anchor_vertical_tension_maximum": ("anchor", uplift[steady][:, anchors].max(axis=0)),
         "line_tension_mean": ("line", mean),
         "line_tension_minimum": ("line", upper[steady].min(axis=0)),
         "line_tension_maximum": ("line", largest),
         "utilisation": ("line", largest / broken),
         "slack_share": ("line", np.array(slack)),
-        "snaps": ("line", np.array(count)),
-        "snap_peak": ("line", np.array(highest)),
+        "snap_count": ("line", np.array(count)),
+        "largest_snap": ("line", np.array(highest)),
     }

@@ -28,12 +28,14 @@ VARIABLES: dict[str, tuple[str, str]] = {
     "pull": ("N", "pull on all anchors together"),
     "balance": ("1", "pull of the anchors against the drag, over the drag"),
     "residual": ("1", "largest force left on a node over the largest tension"),
-    "tension_lower": ("N", "tension at the lower end of the line"),
-    "tension_upper": ("N", "tension at the upper end of the line"),
+    "lower_end_tension": ("N", "tension at the lower end of the line"),
+    "upper_end_tension": ("N", "tension at the upper end of the line"),
     "line_tension_maximum": ("N", "largest tension along the line"),
     "utilisation": ("1", "largest tension over breaking load"),
-    "anchor_pull": ("N", "pull on each anchor"),
-    "anchor_uplift": ("N", "upward pull on each anchor"),
+    "anchor_vertical_tension": (
+        "N",
+        "upward tension at the anchor, 0 where it is downward",
+    ),
     "collar_place": ("m", "mean place of the collar"),
     "collar_ovality": ("1", "largest less smallest diameter of the collar over their mean, each over that as built"),
     "collar_warp": ("m", "largest distance of the collar from its mean plane"),
@@ -55,31 +57,27 @@ VARIABLES: dict[str, tuple[str, str]] = {
     "worst_net_deflection": ("m", "largest displacement of a knot of the net, of all currents"),
     "worst_line_tension_maximum": ("N", "largest tension in the line, of all currents"),
     "worst_utilisation": ("1", "largest tension over breaking load, of all currents"),
-    "worst_anchor_pull": ("N", "largest pull on each anchor, of all currents"),
-    "worst_anchor_uplift": ("N", "largest upward pull on each anchor, of all currents"),
+    "worst_anchor_tension": ("N", "largest tension at the anchor, of all currents"),
+    "worst_anchor_vertical_tension": ("N", "largest uplift at the anchor, of all currents"),
     "worst_collar_stress": ("Pa", "largest von Mises stress of the collar, of all currents"),
     "normal_drag_coefficient": ("1", "drag coefficient of the net at normal flow, on its outline area"),
     "law_volume_share": ("1", "smallest volume over that as built, in the current of the site"),
     "law_drag": ("N", "drag of all parts along the current of the site"),
     "law_line_tension_maximum": ("N", "largest tension of all lines in the current of the site"),
     "law_line_tension": ("N", "largest tension of each line in the current of the site"),
-    "law_offset": ("m", "largest offset of a collar in the current of the site"),
+    "law_largest_offset": ("m", "largest offset of a collar in the current of the site"),
     "law_net_tension": ("N/m", "largest tension of the net over its width in the current of the site"),
-    "law_anchor_pull": ("N", "largest pull on an anchor in the current of the site"),
+    "law_anchor_tension_maximum": ("N", "largest tension at an anchor in the current of the site"),
     "law_collar_stress": ("Pa", "largest von Mises stress of the collar in the current of the site"),
     "law_residual": ("1", "largest force left on a node over the largest tension"),
     "bottom_lift": ("m", "rise of the knot of the net that is deepest in still water"),
     "position": ("m", "places of the nodes"),
     "tension": ("N", "tension of the bars"),
     "line_tension": ("N", "tension at the upper end of the line"),
-    "line_tension_lower": ("N", "tension at the lower end of the line: of anchor lines at the anchor"),
-    "line_tension_maximum_lower": ("N", "highest tension at the lower end of the line: of anchor lines at the anchor"),
-    "line_uplift_lower": ("N", "largest upward part of the tension at the lower end of the line"),
+    "lower_end_tension_maximum": ("N", "highest tension at the lower end of the line: of anchor lines at the anchor"),
     "line_tension_peak_since_row": ("N", "highest tension in the line since the row before"),
     "line_tension_mean": ("N", "mean tension at the upper end"),
     "line_tension_minimum": ("N", "smallest tension at the upper end"),
-    "snaps": ("1", "number of snaps"),
-    "snap_peak": ("N", "highest snap"),
     "wave_elevation": ("m", "water surface over the middle of the cages"),
     "volume_mean": ("1", "mean volume over that as built"),
     "volume_minimum": ("1", "smallest volume over that as built"),
@@ -115,13 +113,13 @@ ALWAYS = {
     ),
     "/[^/]+/statics": (
         "current_speed volume_share drag drag_along total_drag pull balance residual collar_place collar_ovality "
-        "collar_warp net_tension net_deflection bottom_lift position tension tension_lower tension_upper "
+        "collar_warp net_tension net_deflection bottom_lift position tension lower_end_tension upper_end_tension "
         "line_tension_maximum utilisation worst_volume_share worst_net_deflection worst_net_tension "
         "worst_line_tension_maximum worst_utilisation worst_drag"
     ),
     "/[^/]+/laws": (
         "normal_drag_coefficient law_line_tension law_volume_share law_drag law_line_tension_maximum "
-        "law_net_tension law_offset law_residual law_anchor_pull law_collar_stress"
+        "law_net_tension law_largest_offset law_residual law_anchor_tension_maximum law_collar_stress"
     ),
     "/[^/]+/time/[^/]+/[^/]+": (
         "volume_share volume_mean volume_minimum collar_place collar_range net_tension_peak_since_row "
@@ -134,7 +132,7 @@ ALWAYS = {
 #: What one statement of a run writes: a group holds all of it or none.
 TOGETHER = {
     "/[^/]+/statics": (
-        "anchor_pull anchor_uplift worst_anchor_pull worst_anchor_uplift",
+        "anchor_tension anchor_vertical_tension worst_anchor_tension worst_anchor_vertical_tension",
         (
             "collar_stress collar_axial collar_in_plane collar_out_of_plane collar_torsion collar_stress_largest "
             "worst_collar_stress"
@@ -142,8 +140,9 @@ TOGETHER = {
     ),
     "/[^/]+/time/[^/]+/[^/]+": (
         (
-            "line_tension line_tension_lower line_tension_peak_since_row line_tension_maximum_lower line_uplift_lower "
-            "line_tension_mean line_tension_minimum line_tension_maximum utilisation slack_share snaps snap_peak"
+            "line_tension lower_end_tension line_tension_peak_since_row lower_end_tension_maximum anchor_tension "
+            "anchor_tension_maximum anchor_vertical_tension_maximum line_tension_mean line_tension_minimum "
+            "line_tension_maximum utilisation slack_share snap_count largest_snap"
         ),
         "collar_stress collar_stress_largest",
     ),

@@ -48,8 +48,8 @@ def current_table(level: CageLevel) -> Table | None:
             Column(f"volume, {name}", list(100.0 * share[:, k]), "%") for k, name in enumerate(statics.labels("cage"))
         ]
     place = statics.array("collar_place", "current", "cage", "axis")
-    anchors = statics.array("anchor_pull", "current", "anchor")
-    uplift = statics.array("anchor_uplift", "current", "anchor")
+    anchors = statics.array("anchor_tension", "current", "anchor")
+    uplift = statics.array("anchor_vertical_tension", "current", "anchor")
     stress = statics.array("collar_stress_largest", "current", "cage")
     ovality = statics.array("collar_ovality", "current", "cage")
     if anchors is not None and place is not None and anchors.shape[1]:
@@ -79,7 +79,7 @@ def law_table(level: CageLevel) -> Table | None:
     for name, label, factor, unit in (
         ("normal_drag_coefficient", "C_D, normal flow", 1.0, ""), ("law_volume_share", "volume left", 100.0, "%"),
         ("law_drag", "drag", 1.0, "N"), ("law_line_tension_maximum", "largest tension", 1.0, "N"),
-        ("law_offset", "offset", 1.0, "m"), ("law_anchor_pull", "largest anchor pull", 1.0, "N"),
+        ("law_largest_offset", "offset", 1.0, "m"), ("law_anchor_tension_maximum", "largest anchor pull", 1.0, "N"),
     ):  # fmt: skip
         values = laws.real(name, "law")
         if values is not None and np.isfinite(values).any():
@@ -117,7 +117,7 @@ def lines_table(level: CageLevel) -> Table | None:
     """Return the tensions of every line in still water and in the current of the site."""
     statics = level.part("statics")
     names, speed = statics.labels("line"), statics.real("current_speed", "current")
-    lower, upper = (statics.array(f"tension_{end}", "current", "line") for end in ("lower", "upper"))
+    lower, upper = (statics.array(f"{end}_end_tension", "current", "line") for end in ("lower", "upper"))
     used = statics.array("utilisation", "current", "line")
     if not names or speed is None or lower is None or upper is None or used is None:
         return None
@@ -143,10 +143,10 @@ def run_table(level: CageLevel, sea: str, run: Group) -> Table | None:
             "line_tension_mean",
             "line_tension_minimum",
             "line_tension_maximum",
-            "line_tension_maximum_lower",
+            "lower_end_tension_maximum",
             "utilisation",
             "slack_share",
-            "snaps",
+            "snap_count",
         )
     }
     if not names or any(value is None for value in values.values()):
@@ -157,10 +157,10 @@ def run_table(level: CageLevel, sea: str, run: Group) -> Table | None:
         Column("mean", list(got["line_tension_mean"]), "N"),
         Column("smallest", list(got["line_tension_minimum"]), "N"),
         Column("highest", list(got["line_tension_maximum"]), "N"),
-        Column("highest, lower end", list(got["line_tension_maximum_lower"]), "N"),
+        Column("highest, lower end", list(got["lower_end_tension_maximum"]), "N"),
         Column("of its breaking load", list(100.0 * got["utilisation"]), "%"),
         Column("slack, of the time", list(100.0 * got["slack_share"]), "%"),
-        Column("snaps", [int(value) for value in got["snaps"]]),
+        Column("snaps", [int(value) for value in got["snap_count"]]),
     )
     return Table(
         key(level, sea, run.name, "lines"),

@@ -143,6 +143,10 @@ def sea_dataset(
             name: pulls(name)
             for name in ("line_tension_minimum", "line_tension_mean", "line_tension_maximum", "line_tension_mean_peak")
         },
+        "anchor_tension_maximum": (
+            ("wave", "line"),
+            np.array([run.numbers.line_tension_maximum[:, ENDS.index("anchor")] for run in runs]),
+        ),
         "slack_share": (("wave", "line"), np.array([run.numbers.slack_share for run in runs])),
         "steps_per_period": ("wave", np.array([run.march.steps * run.wave.period / run.wave.duration for run in runs])),
     }

@@ -98,7 +98,7 @@ def _rigid_anchor(seas: Seas, groups: Groups) -> list[Headline]:
     for level, name, sea in seas:
         if not sea.sizes["line"]:
             continue
-        pulls = sea["line_tension_maximum"].sel(end="anchor").values
+        pulls = sea["anchor_tension_maximum"].values
         for wave, line in np.ndindex(*pulls.shape):
             title, value = sea["line"].values[line], float(pulls[wave, line])
             run = _run_of(level, name, sea, wave, groups)
@@ -108,7 +108,7 @@ def _rigid_anchor(seas: Seas, groups: Groups) -> list[Headline]:
             band, _ = _rigid_band(laws, run, value, share * run["line_tension_peak_since_row"].values[:, line], line)
             where = f"lower end of {title}, {_rigid_where(level, name, sea, wave, groups)}"
             model = f"{RIGID}, {run.attrs['theory']}"
-            found.append(Headline("anchor_load", "largest pull on an anchor", value, "N", where, model, band))
+            found.append(Headline("anchor_tension", "largest pull on an anchor", value, "N", where, model, band))
     return judged_seas(found)
 
 
@@ -161,7 +161,7 @@ def _rigid_band(
     several = [one for one in laws if one.sizes["law"] > 1]
     least, most = 1.0, 1.0
     for one in several:
-        values = one["law_offset"].values if line is None else one["law_line_tension"].values[:, line]
+        values = one["law_largest_offset"].values if line is None else one["law_line_tension"].values[:, line]
         if values[0] > 0.0:
             least, most = min(least, float(values.min() / values[0])), max(most, float(values.max() / values[0]))
     if several:

@@ -17,7 +17,7 @@ from moyai.sea.water import Water
 from moyai.structures.cage.rigid.lines import CageLine
 from moyai.structures.cage.rigid.model import RigidCageProblem
 from moyai.structures.cage.rigid.runs import run_wave
-from moyai.structures.cage.rigid.statics import RigidCageEquilibrium, rest_with_lines
+from moyai.structures.cage.rigid.statics import RigidCageEquilibrium, equilibrium_with_lines
 from moyai.structures.cage.rigid.variables import labelled
 from moyai.structures.cage.rigid.waves import RigidCageWave, current_along
 
@@ -73,7 +73,7 @@ def laws_dataset(
         other = replace(problem, cage=replace(cage, law=law))
         begin = rest
         if problem.environment.current is not None:
-            begin = rest_with_lines(
+            begin = equilibrium_with_lines(
                 other.cage, lines, water, problem.kinematic_viscosity, problem.environment.current
             )  # fmt: skip
         numbers = run_wave(other, lines, begin, water, wave).numbers
@@ -87,7 +87,7 @@ def laws_dataset(
                 "normal_drag_coefficient": ("law", np.array(coefficients)),
                 "law_line_tension_maximum": ("law", np.array(peaks).max(axis=1)),
                 "law_line_tension": (("law", "line"), np.array(peaks)),
-                "law_offset": ("law", np.array(offsets)),
+                "law_largest_offset": ("law", np.array(offsets)),
             },
             coords={"law": [law.name for law in laws], "line": [line.name for line in lines]},
             attrs={"wave": wave.name, "speed": speed, "valid": choice.named, "reynolds": choice.reynolds},

@@ -36,7 +36,7 @@ from moyai.structures.cage.rigid.pack import pack
 from moyai.structures.cage.rigid.runs import RigidCageRun, run_wave
 from moyai.structures.cage.rigid.sensitivity import sensitivity_dataset
 from moyai.structures.cage.rigid.setup import at_level, lines_of
-from moyai.structures.cage.rigid.statics import RigidCageEquilibrium, free_floating, rest_with_lines, size_of
+from moyai.structures.cage.rigid.statics import RigidCageEquilibrium, equilibrium_with_lines, free_floating, size_of
 from moyai.structures.cage.rigid.variables import VOCABULARY
 from moyai.structures.cage.rigid.waves import RigidCageWave, current_along, waves_of
 
@@ -77,7 +77,7 @@ def rest_at(
     free = free_floating(problem.cage, water, viscosity)
     if not lines:
         return free, free
-    return free, rest_with_lines(problem.cage, lines, water, viscosity, problem.environment.current)
+    return free, equilibrium_with_lines(problem.cage, lines, water, viscosity, problem.environment.current)
 
 
 def _steps(

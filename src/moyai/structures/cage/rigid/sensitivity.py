@@ -12,7 +12,7 @@ from moyai.sea.water import Water
 from moyai.structures.cage.rigid.lines import CageLine
 from moyai.structures.cage.rigid.model import RigidCageProblem
 from moyai.structures.cage.rigid.runs import run_wave
-from moyai.structures.cage.rigid.statics import rest_with_lines
+from moyai.structures.cage.rigid.statics import equilibrium_with_lines
 from moyai.structures.cage.rigid.variables import labelled
 from moyai.structures.cage.rigid.waves import RigidCageWave
 
@@ -53,13 +53,13 @@ def sensitivity_dataset(
     own = max(line.stiffness for line in lines)
     settings = problem.settings
     wanted = settings.stiffnesses or tuple(own * factor for factor in settings.stiffness_factors)
-    rest = rest_with_lines(problem.cage, lines, water, problem.kinematic_viscosity, problem.environment.current)
+    rest = equilibrium_with_lines(problem.cage, lines, water, problem.kinematic_viscosity, problem.environment.current)
     rows = []
     for number, stiffness in enumerate(sorted(wanted)):
         progress(f"stiffness, {wave.name}", number, len(wanted))
         try:
             varied = stiffer(lines, rest.tension, stiffness / own)
-            place = rest_with_lines(
+            place = equilibrium_with_lines(
                 problem.cage, varied, water, problem.kinematic_viscosity, problem.environment.current, rest.place
             )
         except (InputError, ConvergenceError):

@@ -147,7 +147,7 @@ def _balance(
     place, tension = unpack(found)
     if error > 1e-8 or (tension < -1e-9 * weight).any():
         raise InputError(
-            "the tensions of the lines do not balance: the cage finds no rest with them",
+            "the tensions of the lines do not balance: the cage finds no equilibrium with them",
             parameter="mooring",
             remedy="give lines on both sides, or their lengths",
         )

@@ -199,7 +199,7 @@ def rest_of(packed: PackedCage, cage: RigidCage, place: Array, held: tuple[int, 
         found, error = _settle(packed, found, size, held, weight)
     if error > 1e-8:
         raise ConvergenceError(
-            f"no position of rest was found: a force of {error:.2g} of the weight is left",
+            f"no position of equilibrium was found: a force of {error:.2g} of the weight is left",
             parameter="mooring",
             remedy="check anchors, lengths and current",
         )
@@ -287,7 +287,7 @@ def free_floating(cage: RigidCage, water: Water, kinematic_viscosity: float) -> 
     return rest_of(packed, cage, start, held=(0,))
 
 
-def rest_with_lines(
+def equilibrium_with_lines(
     cage: RigidCage,
     lines: tuple[CageLine, ...],
     water: Water,
@@ -322,14 +322,14 @@ def rest_with_lines(
     InputError
         When a current carries a cage without lines away.
     ConvergenceError
-        When no rest is found.
+        When no equilibrium is found.
 
     Examples
     --------
-    >>> from moyai.structures import model_cage, rest_with_lines, taut_lines
+    >>> from moyai.structures import model_cage, equilibrium_with_lines, taut_lines
     >>> from moyai.structures.cage.rigid.matsubara import VISCOSITY, WATER
     >>> cage = model_cage()
-    >>> rest = rest_with_lines(cage, taut_lines(cage, pull_down=0.011, stiffness=2000.0), WATER, VISCOSITY)
+    >>> rest = equilibrium_with_lines(cage, taut_lines(cage, pull_down=0.011, stiffness=2000.0), WATER, VISCOSITY)
     >>> (rest.tension / 9.81e-3).round(1).tolist()                   # [gf]
     [53.5, 53.5]
     """

@@ -70,7 +70,7 @@ VARIABLES: dict[str, tuple[str, str]] = {
     "normal_drag_coefficient": ("1", "drag coefficient of the net at normal flow, on its outline area"),
     "law_line_tension_maximum": ("N", "largest tension of all lines in the governing wave"),
     "law_line_tension": ("N", "largest tension of each line in the governing wave"),
-    "law_offset": ("m", "largest way from where the cage floats freely, in the governing wave"),
+    "law_largest_offset": ("m", "largest way from where the cage floats freely, in the governing wave"),
     "varied_stiffness": ("N/m", "stiffness of the lines"),
 }
 
@@ -99,11 +99,11 @@ ALWAYS = {
     "/[^/]+/waves/[^/]+": (
         "period wave_height wavelength orbit_ratio range largest_range mean maximum minimum deviation "
         "first_harmonic first_phase range_ratio drift_velocity line_tension_minimum line_tension_mean "
-        "line_tension_maximum line_tension_mean_peak slack_share steps_per_period"
+        "line_tension_maximum line_tension_mean_peak anchor_tension_maximum slack_share steps_per_period"
     ),
     "/[^/]+/time/[^/]+/[^/]+": "surface_elevation sway heave roll tension line_tension_peak_since_row",
     "/[^/]+/laws(_in_waves/[^/]+/[^/]+)?": (
-        "normal_drag_coefficient law_line_tension_maximum law_line_tension law_offset"
+        "normal_drag_coefficient law_line_tension_maximum law_line_tension law_largest_offset"
     ),
     "/[^/]+/sensitivity/[^/]+": "line_tension_maximum line_tension_mean_peak range",
 }

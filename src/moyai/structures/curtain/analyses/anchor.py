@@ -38,7 +38,7 @@ def steady_tension(unit: LevelCurtain, settings: AnchorLoadSettings) -> float:
         return 0.0
     if anchors.pretension is not None:
         return anchors.pretension
-    return unit.statics.anchor_line_tension if unit.surface_speed > 0.0 else 0.0
+    return unit.statics.anchor_tension if unit.surface_speed > 0.0 else 0.0
 
 
 def rope_model(unit: LevelCurtain, settings: AnchorLoadSettings) -> EnergyModel:

@@ -23,7 +23,7 @@ COMPONENTS: Mapping[str, str] = {
     "upper cable": "upper_peak",
     "lower cable": "lower_peak",
     "skirt": "skirt_peak",
-    "anchor line": "anchor_peak",
+    "anchor line": "anchor_line_tension_maximum",
 }
 #: Change of a tension from one mesh to the other, over the larger, beyond which the mesh does not carry it [-]
 MESH_CHANGE = 0.2

@@ -51,7 +51,7 @@ def impact_groups(unit: LevelCurtain, settings: ImpactSettings, answer: ImpactAn
     snap = find_snap(unit, settings, answer.impact)
     if snap is not None:
         groups["impact/snap"] = _snap(snap, answer.impact)
-        groups["impact"]["plateau_tension"] = ((), snap.plateau_tension)
+        groups["impact"]["both_cables_plateau_tension"] = ((), snap.plateau_tension)
         groups["impact"] = labelled(groups["impact"])
     return groups
 
@@ -106,7 +106,7 @@ def _table(unit: LevelCurtain, settings: ImpactSettings, answer: ImpactAnswer) -
         "rise_ratio": exact.time / math.sqrt(impact.draught / water.gravity),
         "relative_step": relative,
         "time_step": step,
-        "plateau_tension": math.nan,
+        "both_cables_plateau_tension": math.nan,
         "spread": answer.comparison.spread,
         "design_tension": answer.design_tension,
     }
@@ -121,7 +121,7 @@ def _table(unit: LevelCurtain, settings: ImpactSettings, answer: ImpactAnswer) -
     return labelled(
         xr.Dataset(
             {
-                "impact_tension": ("impact_model", [item.tension for item in models]),
+                "both_cables_impact_tension": ("impact_model", [item.tension for item in models]),
                 "impact_time": ("impact_model", [item.time for item in models]),
                 "impact_upper_tension": ("impact_model", upper),
                 "impact_lower_tension": ("impact_model", lower),
@@ -223,9 +223,9 @@ def _snap(snap: Snap, impact: Impact) -> xr.Dataset:
         "taut_time": snap.taut_time,
         "peak_time": snap.peak_time,
         "start_speed": snap.start_speed,
-        "peak_tension": snap.peak_tension,
-        "plateau_tension": snap.plateau_tension,
-        "impact_tension": snap.impact_tension,
+        "both_cables_peak_tension": snap.peak_tension,
+        "both_cables_plateau_tension": snap.plateau_tension,
+        "both_cables_impact_tension": snap.impact_tension,
     }
     return labelled(xr.Dataset(data, coords={"time": motion.time[keep]}, attrs=attrs))
 

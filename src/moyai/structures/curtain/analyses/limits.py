@@ -168,7 +168,7 @@ def _steady_factors(unit: LevelCurtain) -> AddedLoads | None:
         steady = unit.steady
     except (InputError, ConvergenceError):
         return None
-    names = ("upper_tension", "lower_tension", "sheet_tension", "anchor_line_tension", "line_load")
+    names = ("upper_tension", "lower_tension", "sheet_tension", "anchor_tension", "line_load")
     values = [(steady.governing.quantity(name), steady.band(name)[1]) for name in names]
     return AddedLoads(*(high / value if high > value > 0.0 else 1.0 for value, high in values))
 
@@ -307,9 +307,9 @@ def _limits_group(
         "limit_bound": ("speed", [found.rows[n][1] for n in source]),
         "limit_height_alone": ("speed", alone),
         "limit_note": ("speed", [height_note(row, limits.highest_height) for row, _ in found.rows]),
-        "limit_utilisation": (("speed", "height"), np.nanmax(parts, axis=2)),
+        "limit_factored_utilisation": (("speed", "height"), np.nanmax(parts, axis=2)),
         "limit_component": (("speed", "height"), _governing(parts)),
-        "component_utilisation": (("speed", "height", "component"), parts),
+        "component_factored_utilisation": (("speed", "height", "component"), parts),
         "surface_speed": ((), unit.surface_speed),
         "speed_limit": ((), most.value),
         "speed_limit_low": ((), low),

@@ -196,8 +196,8 @@ def _table(
         decided[number] = _with_bound(_with_weaker(row, slower), slower, most)
     rows = _with_joint(unit, decided, frozenset(name for name, span in moved.items() if span.open))
     columns = {key: [row[key] for row in rows] for key in rows[0]}
-    known = [row for row in rows if math.isfinite(row["utilisation"])]  # type: ignore[arg-type]
-    governing = max(known, key=lambda row: float(row["utilisation"]), default=None)
+    known = [row for row in rows if math.isfinite(row["factored_utilisation"])]  # type: ignore[arg-type]
+    governing = max(known, key=lambda row: float(row["factored_utilisation"]), default=None)
     data = xr.Dataset(
         {key: ("component", values) for key, values in columns.items() if key != "component"},
         coords={"component": list(COMPONENTS)},
@@ -225,7 +225,7 @@ def _with_weaker(row: dict[str, float | str], weaker: Sequence[dict[str, float |
     }  # fmt: skip
     if largest is row or not float(largest["governing_load"]) > float(row["governing_load"]):
         return row
-    names = ("governing_load", "governing_high", "load_bound", "utilisation", "utilisation_high")
+    names = ("governing_load", "governing_high", "load_bound", "factored_utilisation", "factored_utilisation_high")
     return row | {name: largest[name] for name in names} | {
         "governing": WEAKER, "governing_source": largest["impact_source"]
     }  # fmt: skip
@@ -247,7 +247,7 @@ def _with_bound(
             "weaker_load": known["governing_load"], "weaker_high": known["governing_high"],
             "weaker_source": known["impact_source"],
         }  # fmt: skip
-    names = ("governing_load", "governing_high", "load_bound", "utilisation", "utilisation_high")
+    names = ("governing_load", "governing_high", "load_bound", "factored_utilisation", "factored_utilisation_high")
     return row | {name: most[name] for name in names} | {"governing": WEAKER, "governing_source": most["impact_source"]}
 
 
@@ -283,8 +283,8 @@ def _decided(
     judged = math.isfinite(float(row["capacity"])) and math.isfinite(governing)
     strength = _strength(unit, component)
     return row | {
-        "utilisation": strength.utilisation(governing) if judged else math.nan,
-        "utilisation_high": strength.utilisation(above) if judged else math.nan,
+        "factored_utilisation": strength.utilisation(governing) if judged else math.nan,
+        "factored_utilisation_high": strength.utilisation(above) if judged else math.nan,
     }
 
 
@@ -308,8 +308,8 @@ def _with_joint(
             row["load_bound"] = "" if alone else "at most"
         for load, end, used in (
             ("steady_low", "steady_low", ""), ("steady_load", "steady_load", ""), ("steady_high", "steady_high", ""),
-            ("governing_load", "governing_high", "utilisation"),
-            ("governing_high", "governing_high", "utilisation_high"),
+            ("governing_load", "governing_high", "factored_utilisation"),
+            ("governing_high", "governing_high", "factored_utilisation_high"),
         ):  # fmt: skip
             known = [float(cable[end]) for cable in cables if math.isfinite(float(cable[end]))]
             if end == "governing_high":
@@ -412,8 +412,8 @@ _STEADY = {
     "skirt": "sheet_tension",
     "joint": "line_load",
     "float": "float_load",
-    "anchor line": "anchor_line_tension",
-    "anchor": "anchor_force",
+    "anchor line": "anchor_tension",
+    "anchor": "anchor_horizontal_tension",
 }
 
 

@@ -31,9 +31,9 @@ def record_dataset(record: RecordedSnap) -> xr.Dataset:
         "peak_time": record.peak_time,
         "plateau_start": record.plateau_start,
         "rise_time": record.rise_time,
-        "sum_peak_tension": record.total.peak,
-        "sum_plateau_tension": record.total.plateau,
-        "sum_impact_tension": record.total.impact,
+        "both_cables_peak_tension": record.total.peak,
+        "both_cables_plateau_tension": record.total.plateau,
+        "both_cables_impact_tension": record.total.impact,
         "peak_missed": record.peak_missed,
     }
     data: dict[str, Any] = {

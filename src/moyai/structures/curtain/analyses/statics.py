@@ -102,9 +102,9 @@ def _statics(unit: LevelCurtain, cases: tuple[CurtainStatics, ...], significant_
         "sag": [case.plan.sag for case in cases],
         "strain": [case.plan.strain for case in cases],
         "end_angle": [float(np.max(np.abs(case.plan.angle))) for case in cases],
-        "anchor_force": [case.anchor_force for case in cases],
-        "end_anchor_force": [case.end_anchor_force for case in cases],
-        "anchor_line_tension": [case.anchor_line_tension for case in cases],
+        "anchor_horizontal_tension": [case.anchor_horizontal_tension for case in cases],
+        "end_anchor_horizontal_tension": [case.end_anchor_horizontal_tension for case in cases],
+        "anchor_tension": [case.anchor_tension for case in cases],
         "float_reserve": [case.float_reserve for case in cases],
         "float_reserve_ratio": [case.reserve_ratio for case in cases],
     }
@@ -378,7 +378,7 @@ def _section_miss(unit: LevelCurtain, current: CurrentProfile) -> float:
 
 def _float_miss(statics: CurtainStatics) -> float:
     curtain = statics.curtain
-    lines = max(statics.anchor_line_tension, 2.0 * curtain.pretension) * math.sin(curtain.anchor_slope) / curtain.span
+    lines = max(statics.anchor_tension, 2.0 * curtain.pretension) * math.sin(curtain.anchor_slope) / curtain.span
     total = curtain.floats.weight + statics.section.top_pull + lines + statics.float_reserve
     return abs(total / curtain.floats.buoyancy - 1.0)
 

@@ -104,7 +104,7 @@ def steady_variables(unit: LevelCurtain) -> tuple[dict[str, Any], dict[str, list
         data[f"steady_{name}_low"], data[f"steady_{name}_high"] = ((), low), ((), high)
     data["steady_load_bound"] = ((), steady.bound if math.isfinite(steady.bound) else math.nan)
     states = (steady.governing, *steady.causes, steady.lowest, steady.highest)
-    for name in ("line_load", "cable_tension", "anchor_force", "effective_depth"):
+    for name in ("line_load", "cable_tension", "anchor_horizontal_tension", "effective_depth"):
         data[f"cause_{name}"] = ("steady_cause", [state.quantity(name) for state in states])
     compared = compared_loads(unit)
     data["compared_line_load"] = ("steady_model", [one.line_load for one in compared])
@@ -125,12 +125,12 @@ def steady_variables(unit: LevelCurtain) -> tuple[dict[str, Any], dict[str, list
 
 def _by_direction(unit: LevelCurtain) -> dict[str, list[float]]:
     """Return load and forces with the current turned away from the normal; NaN where there is no equilibrium."""
-    names = ("span_load", "cable_tension", "anchor_force")
+    names = ("span_load", "cable_tension", "anchor_horizontal_tension")
     rows: dict[str, list[float]] = {name: [] for name in names}
     for angle in _DIRECTIONS:
         try:
             statics = unit.turned(float(angle)).statics(unit.hanging, unit.surface_speed)
-            values = (sum(statics.plan.downstream_end_forces), statics.plan.tension, statics.anchor_force)
+            values = (sum(statics.plan.downstream_end_forces), statics.plan.tension, statics.anchor_horizontal_tension)
         except (InputError, ConvergenceError):
             values = (math.nan,) * 3
         for name, value in zip(names, values):

@@ -181,8 +181,8 @@ def _regular(
     groups[""] = labelled(
         xr.Dataset(data, coords={"period": list(sea.periods)}, attrs={"kind": "regular", "height": sea.height})
     )
-    top = max(row[name] for row in rows for name in ("maximum_tension", "lower_wave_tension"))
-    return WaveAnswer(groups, top, max(top, *(row["maximum_tension_high"] for row in rows)), tuple(notices))
+    top = max(row[name] for row in rows for name in ("both_cables_tension_maximum", "lower_wave_tension"))
+    return WaveAnswer(groups, top, max(top, *(row["both_cables_tension_maximum_high"] for row in rows)), tuple(notices))
 
 
 def _settled(
@@ -206,9 +206,9 @@ def _settled(
     low, high = found.scatter
     tensions = [item.tension for item in lower]
     return found, {
-        "maximum_tension": found.tension,
-        "maximum_tension_low": low,
-        "maximum_tension_high": high,
+        "both_cables_tension_maximum": found.tension,
+        "both_cables_tension_maximum_low": low,
+        "both_cables_tension_maximum_high": high,
         "lower_wave_tension": max(tensions),
         "lower_wave_height": _LOWER[int(np.argmax(tensions))] * sea.height,
         "judged_tension": max(item.judged for item in (found, *lower)),
@@ -230,9 +230,9 @@ def _row(impact: Impact, found: SettledCycles, contacts: list[CableContact], amp
     factor = float(speed_factor(impact.span_ratio)) * math.sqrt(impact.deep_mass * impact.stiffness)
     return {
         "velocity_amplitude": amplitude,
-        "excursion": amplitude * found.period / math.pi,
-        "threshold_excursion": 2.0 * slack_sag(impact),
-        "mean_tension": float(tension.mean()),
+        "water_excursion": amplitude * found.period / math.pi,
+        "threshold_water_excursion": 2.0 * slack_sag(impact),
+        "both_cables_tension_mean": float(tension.mean()),
         "first_contact_tension": found.of_contacts(first),
         "later_contact_tension": found.of_contacts(contact for contact in contacts if not contact.first),
         "largest_contact_speed": abs(largest.speed) if largest else 0.0,
@@ -262,14 +262,14 @@ def _not_repeating(place: str, found: SettledCycles) -> Notice:
 
 
 def _never_taut(place: str, unit: LevelCurtain, row: dict[str, float]) -> Notice:
-    if row["mean_tension"] > 0.0:
+    if row["both_cables_tension_mean"] > 0.0:
         text = f"{place}: the current keeps it taut, the waves do not slacken it"
         return Notice("curtain-always-taut", text, row["velocity_amplitude"], unit.normal_speed, "information")
     text = (
-        f"{place}: the water travels {row['excursion']:.3g} m to and fro and never "
-        f"draws the curtain taut, which takes {row['threshold_excursion']:.3g} m"
+        f"{place}: the water travels {row['water_excursion']:.3g} m to and fro and never "
+        f"draws the curtain taut, which takes {row['threshold_water_excursion']:.3g} m"
     )
-    return Notice("curtain-never-taut", text, row["excursion"], row["threshold_excursion"], "information")
+    return Notice("curtain-never-taut", text, row["water_excursion"], row["threshold_water_excursion"], "information")
 
 
 def _series(
@@ -325,7 +325,7 @@ def _irregular(
     scalars = {
         "significant_height": sea.spectrum.significant_height,
         "realisations": float(tops.size),
-        "mean_tension": float(
+        "both_cables_tension_mean": float(
             np.mean([found.motion.tension[found.motion.time >= transient].mean() for found in snaps])
         ),
         "contact_count": float(count),
@@ -374,9 +374,9 @@ def _irregular(
 def _tops(tops: Array) -> dict[str, Any]:
     """Return the variables of an irregular sea that :class:`SeaCycles` reads."""
     return {
-        "maximum_tension": ((), float(tops.mean())),
-        "maximum_tension_low": ((), float(tops.min())),
-        "maximum_tension_high": ((), float(tops.max())),
+        "both_cables_tension_maximum": ((), float(tops.mean())),
+        "both_cables_tension_maximum_low": ((), float(tops.min())),
+        "both_cables_tension_maximum_high": ((), float(tops.max())),
         "realisation_tension": ("seed", tops),
     }
 

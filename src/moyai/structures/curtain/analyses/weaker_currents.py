@@ -132,7 +132,11 @@ def weaker_waves(
     if not speeds or not seas:
         return None
     slower = [replace(unit, surface_speed=speed) for speed in speeds]
-    rows: dict[str, list[list[float]]] = {"maximum_tension": [], "maximum_tension_low": [], "judged_tension": []}
+    rows: dict[str, list[list[float]]] = {
+        "both_cables_tension_maximum": [],
+        "both_cables_tension_maximum_low": [],
+        "judged_tension": [],
+    }
     for sea in seas:
         found = []
         still = still_flows(unit, settings.waves, sea) if flows is None else flows[sea.name]
@@ -145,8 +149,8 @@ def weaker_waves(
             # what a current weaker than the drift makes of the coefficient says little of it
             drifting = max(strong_tension(slower[-1], settings, sea, found[-1], still) / found[-1].judged, 1.0)
         factors = [drifting if there.surface_speed > unit.surface_speed else strong for there in slower]
-        rows["maximum_tension"].append([one.top for one in found])
-        rows["maximum_tension_low"].append([one.low for one in found])
+        rows["both_cables_tension_maximum"].append([one.top for one in found])
+        rows["both_cables_tension_maximum_low"].append([one.low for one in found])
         rows["judged_tension"].append([factor * one.judged for factor, one in zip(factors, found, strict=True)])
     coords = {"sea": [sea.name for sea in seas], "weaker_current": list(speeds)}
     return labelled(xr.Dataset({name: (tuple(coords), values) for name, values in rows.items()}, coords=coords))
@@ -161,7 +165,7 @@ def weaker_cycles(
         there, column = replace(unit, surface_speed=float(speed)), table.isel(weaker_current=number)
         for sea in column["sea"].values:
             ends = []
-            for name in ("maximum_tension", "maximum_tension_low", "judged_tension"):
+            for name in ("both_cables_tension_maximum", "both_cables_tension_maximum_low", "judged_tension"):
                 tension = float(column[name].sel(sea=sea))
                 whole = load.of_tension(tension, unit.unit_normal_speed * there.surface_speed)
                 ends.append(increase(whole, there.statics) if there.surface_speed > 0.0 else whole)

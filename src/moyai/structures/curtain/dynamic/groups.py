@@ -31,7 +31,7 @@ def run_dataset(
     peaks = np.stack([run.tension(name) for name in names])
     data: dict[str, Any] = {
         "line_tension_peak_since_row": (("line", "time"), peaks),
-        "both_tension": ("time", run.both),
+        "both_cables_tension_peak_since_row": ("time", run.both),
         "kinetic_energy": ("time", history.kinetic_energy),
         "elastic_energy": ("time", history.elastic_energy),
         "energy_balance": ("time", history.energy_balance),
@@ -46,12 +46,12 @@ def run_dataset(
     stats = [run.snaps(name, settings.slack_level, settings.threshold) for name in names]
     length = max(float(history.time[-1] - run.from_time), 1e-300)
     data["slack_share"] = ("line", [record.slack_time / length for record in stats])
-    data["line_contacts"] = ("line", [len(record.contacts) for record in stats])
-    data["line_snaps"] = ("line", [len(record.snaps) for record in stats])
+    data["contact_count"] = ("line", [len(record.contacts) for record in stats])
+    data["snap_count"] = ("line", [len(record.snaps) for record in stats])
     data["slack_level"] = ("line", [record.slack_level for record in stats])
     data["snap_threshold"] = ("line", [record.threshold for record in stats])
     rises = [[c.rise_time for c in record.snaps] for record in stats]
-    data["snap_rise_time"] = ("line", [float(np.median(r)) if r else math.nan for r in rises])
+    data["median_rise_time"] = ("line", [float(np.median(r)) if r else math.nan for r in rises])
     nothing = PeakUncertainty(math.nan)
     for key in TRIALS:
         data[f"line_{key}"] = (
@@ -65,9 +65,9 @@ def run_dataset(
     rows = np.unique(np.concatenate([near, np.linspace(0, history.time.size - 1, 200).astype(int)]))
     skirt = float(np.max(run.skirt_tension(rows)))
     summary = {
-        "both_peak": both, "both_peak_time": when, "upper_peak": highest[0][0],
+        "both_cables_tension_maximum": both, "both_cables_peak_time": when, "upper_peak": highest[0][0],
         "lower_peak": run.peak("lower cable")[0] if "lower cable" in names else 0.0,
-        "anchor_peak": max(
+        "anchor_line_tension_maximum": max(
             (value for (value, _), name in zip(highest, names, strict=True) if name.startswith("anchor")),
             default=math.nan,
         ),

@@ -159,8 +159,8 @@ def utilisation(
         "upper cable": required.upper_cable.utilisation(upper),
         "lower cable": required.lower_cable.utilisation(lower),
         "sheet": required.sheet.utilisation(at("sheet_tension") + more.sheet),
-        "anchor line": required.anchor_line.utilisation(at("anchor_line_tension") + more.anchor_line),
-        "anchor": required.anchor.utilisation(at("anchor_force") + more.anchor_line * slope),
+        "anchor line": required.anchor_line.utilisation(at("anchor_tension") + more.anchor_line),
+        "anchor": required.anchor.utilisation(at("anchor_horizontal_tension") + more.anchor_line * slope),
         "floats": (1.0 - at("float_reserve_ratio")) / (1.0 - required.least_reserve),
         "effective depth": required.least_depth / at("effective_depth"),
     }
@@ -267,7 +267,7 @@ class WaveLoad:
 
     def added(self, statics: CurtainStatics, significant_height: float, speed: float, water: Water) -> AddedLoads:
         """Return the loads that a significant height [m] adds: those of the anchor line."""
-        rise = self.tension(significant_height, speed, statics.anchor_line_tension, water)
+        rise = self.tension(significant_height, speed, statics.anchor_tension, water)
         return AddedLoads(anchor_line=rise)
 
 
@@ -459,7 +459,7 @@ def anchor_spacing(
             statics = site.statics(replace(curtain, span=span, length=ratio * span), speed)
         except (InputError, ConvergenceError):
             return math.inf, "no equilibrium"
-        force = statics.anchor_line_tension
+        force = statics.anchor_tension
         held = tight_line(force, curtain.pretension) - force
         parts = utilisation(SteadyState("", statics), required, held + wave_tension)
         return _worst({name: load_factor * parts[name] for name in _BY_SPAN})

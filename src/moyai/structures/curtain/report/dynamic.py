@@ -31,7 +31,7 @@ from moyai.structures.curtain.report.reading import CurtainLevel, attribute, key
 _BINS, _PERIODS_SHOWN, _WHOLE = 900, 4.0, 6.0
 #: Columns of the table of the uncertainty of peaks: heading, name in the table of runs, name of each line in its run.
 _TRIALS = (
-    ("As run", "both_peak", "line_tension_maximum"),
+    ("As run", "both_cables_tension_maximum", "line_tension_maximum"),
     ("Half the step", "half_step_peak", "line_half_step"),
     ("Half the cells", "half_mesh_peak", "line_half_mesh"),
     ("Extrapolated", "extrapolated_peak", "line_extrapolated"),
@@ -73,12 +73,12 @@ def peak_table(level: CurtainLevel) -> Table | None:
     columns = _rows(
         group,
         (
-            ("both_peak", "Both cables", "N"),
+            ("both_cables_tension_maximum", "Both cables", "N"),
             ("upper_peak", "Upper cable", "N"),
             ("lower_peak", "Lower cable", "N"),
-            ("anchor_peak", "Anchor line", "N"),
+            ("anchor_line_tension_maximum", "Anchor line", "N"),
             ("skirt_peak", "Skirt", "N/m"),
-            ("both_peak_time", "At time", "s"),
+            ("both_cables_peak_time", "At time", "s"),
         ),
     )
     if not names or not columns:
@@ -172,10 +172,10 @@ def snap_table(level: CurtainLevel, run: Group) -> Table | None:
             ("line_tension_maximum", "Peak", "N"),
             ("line_peak_time", "At time", "s"),
             ("slack_share", "Slack share of time", ""),
-            ("line_contacts", "Times taut again", ""),
-            ("line_snaps", "Snaps", ""),
+            ("contact_count", "Times taut again", ""),
+            ("snap_count", "Snaps", ""),
             ("snap_threshold", "Snap threshold", "N"),
-            ("snap_rise_time", "Rise", "s"),
+            ("median_rise_time", "Rise", "s"),
         )
         if (values := run.real(name, "line")) is not None and np.isfinite(values).any()
     ]
@@ -190,7 +190,7 @@ def snap_table(level: CurtainLevel, run: Group) -> Table | None:
 
 def tension_figure(level: CurtainLevel, run: Group) -> Figure | None:
     """Return the tensions of cables and anchor lines over time, opened at the peak."""
-    time, both = run.real("time", "time"), run.real("both_tension", "time")
+    time, both = run.real("time", "time"), run.real("both_cables_tension_peak_since_row", "time")
     if time is None or both is None or time.size < 3 or not np.isfinite(both).any():
         return None
     lines = {name: run.real("line_tension_peak_since_row", "time", line=name) for name in run.labels("line")}

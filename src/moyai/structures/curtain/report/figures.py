@@ -108,7 +108,7 @@ def _laws(
 def impact_bars(level: CurtainLevel) -> Figure | None:
     """Return the tension of each impact model side by side."""
     group = level.part("impact")
-    names, values = group.labels("impact_model"), group.real("impact_tension", "impact_model")
+    names, values = group.labels("impact_model"), group.real("both_cables_impact_tension", "impact_model")
     if not names or values is None:
         return None
     factor, unit = common_scale("N", values)
@@ -119,7 +119,7 @@ def impact_bars(level: CurtainLevel) -> Figure | None:
         apart = np.where(counted, np.nan, values) * factor
         series.append(Series("does not count", {}, apart, tone=6, style="bar", faint=True))
     marks = [Mark("design", y=group.value("design_tension") * factor)]
-    plateau = group.value("plateau_tension")
+    plateau = group.value("both_cables_plateau_tension")
     marks.append(Mark("plateau by drag", y=plateau * factor))
     return Figure(
         key(level, "impact-models"),
@@ -232,7 +232,7 @@ def snap_record(level: CurtainLevel) -> Figure | None:
         ),
         Mark("taut", x=attribute(snap, "taut_time")),
     ]
-    plateau = level.part("impact").value("plateau_tension")
+    plateau = level.part("impact").value("both_cables_plateau_tension")
     if math.isfinite(plateau):
         marks.append(Mark(f"plateau {format_quantity(plateau, 'N')}", y=plateau * factor))
     return Figure(
@@ -266,7 +266,7 @@ def record_over_models(level: CurtainLevel, root: Group) -> Figure | None:
     taut, peak_time = record.value("taut_time"), record.value("peak_time")
     names, peaks, rises = (
         group.labels("impact_model"),
-        group.real("impact_tension", "impact_model"),
+        group.real("both_cables_impact_tension", "impact_model"),
         group.real("impact_time", "impact_model"),
     )
     if time is None or tension is None or peaks is None or not math.isfinite(taut):
@@ -308,7 +308,7 @@ def record_over_models(level: CurtainLevel, root: Group) -> Figure | None:
         "Models start at the taut instant of the record and include no drag, except where it is named; nothing is "
         "fitted. "
         "Models that do not count are left out.",
-        (Mark("plateau of the record", y=record.value("sum_plateau_tension") * factor),),
+        (Mark("plateau of the record", y=record.value("both_cables_plateau_tension") * factor),),
         height=360,
     )
 
@@ -333,7 +333,7 @@ def flume_record(root: Group) -> Figure | None:
         Mark(words, x=group.value(name))
         for name, words in (("release_time", "release"), ("taut_time", "taut"), ("plateau_start", "plateau"))
     ]
-    marks.append(Mark("plateau of the sum", y=group.value("sum_plateau_tension") * factor))
+    marks.append(Mark("plateau of the sum", y=group.value("both_cables_plateau_tension") * factor))
     if not series:
         return None
     return Figure(

@@ -50,7 +50,7 @@ def operating_map(level: CurtainLevel) -> Drawing | None:
     """Return the map of the largest utilisation over current and wave height, ``None`` where it was not computed."""
     group = level.part("limits")
     speed, height = group.real("speed", "speed"), group.real("height", "height")
-    used = group.real("limit_utilisation", "speed", "height")
+    used = group.real("limit_factored_utilisation", "speed", "height")
     if speed is None or height is None or used is None or min(used.shape) < 2:
         return None
     names = texts(group, "limit_component", "speed", "height")
@@ -180,7 +180,10 @@ def limit_curve(level: CurtainLevel) -> Figure | None:
         return None
     x = {"speed": speed}
     series = [Series("limit of all, in currents up to each", x, limit, tone=0, style="line+points")]
-    height, parts = group.real("height", "height"), group.real("component_utilisation", "speed", "height", "component")
+    height, parts = (
+        group.real("height", "height"),
+        group.real("component_factored_utilisation", "speed", "height", "component"),
+    )
     if height is not None and parts is not None:
         for tone, name in enumerate(group.labels("component")):
             each = np.array([_crossing(height, parts[i, :, tone]) for i in range(speed.size)])
@@ -256,7 +259,7 @@ def map_table(level: CurtainLevel) -> Table | None:
     """Return the numbers of the map, one row a pair of current and height."""
     group = level.part("limits")
     speed, height = group.real("speed", "speed"), group.real("height", "height")
-    used = group.real("limit_utilisation", "speed", "height")
+    used = group.real("limit_factored_utilisation", "speed", "height")
     if speed is None or height is None or used is None:
         return None
     names = texts(group, "limit_component", "speed", "height")
@@ -268,7 +271,7 @@ def map_table(level: CurtainLevel) -> Table | None:
     ]
     if names is not None:
         columns.append(Column("Component", [str(name) for name in names.ravel()]))
-    parts = group.real("component_utilisation", "speed", "height", "component")
+    parts = group.real("component_factored_utilisation", "speed", "height", "component")
     if parts is not None:
         for number, name in enumerate(group.labels("component")):
             columns.append(Column(name, [float(value) for value in parts[:, :, number].ravel()], uniform=False))

@@ -154,7 +154,7 @@ def components(level: CurtainLevel) -> tuple[Component, ...]:
         return np.full(len(names), math.nan) if found is None else found
 
     loads = {part: column(f"{part}_load") for part in PARTS}
-    capacity, factor, used = column("capacity"), column("safety_factor"), column("utilisation")
+    capacity, factor, used = column("capacity"), column("safety_factor"), column("factored_utilisation")
     units = words(group, "load_unit", "component", len(names))
     governing = words(group, "governing", "component", len(names))
     weaker = words(group, "governing_source", "component", len(names))

@@ -19,13 +19,13 @@ _DEGREES = 180.0 / math.pi
 
 def regular_tension(level: CurtainLevel, sea: Group) -> Figure | None:
     """Return tension and excursion of regular waves over the period."""
-    period, tension = sea.real("period", "period"), sea.real("maximum_tension", "period")
+    period, tension = sea.real("period", "period"), sea.real("both_cables_tension_maximum", "period")
     if period is None or tension is None:
         return None
     found = {
         words: sea.real(name, "period")
         for words, name in (
-            ("governing tension", "maximum_tension"),
+            ("governing tension", "both_cables_tension_maximum"),
             ("first contacts", "first_contact_tension"),
             ("later contacts", "later_contact_tension"),
             ("closed form of the impact", "closed_form_tension"),
@@ -40,7 +40,7 @@ def regular_tension(level: CurtainLevel, sea: Group) -> Figure | None:
             dash = "dash" if words.startswith("closed") else "solid"
             series.append(Series(words, x, values * factor, tone=tone, style=style, dash=dash))  # type: ignore[arg-type]
     panels = [Panel("tension of both cables", unit, from_zero=True)]
-    excursion, threshold = sea.real("excursion", "period"), sea.real("threshold_excursion", "period")
+    excursion, threshold = sea.real("water_excursion", "period"), sea.real("threshold_water_excursion", "period")
     if excursion is not None:
         panels.append(Panel("excursion of the water", "m", from_zero=True))
         series.append(Series("excursion 2u/ω", x, excursion, panel=1, tone=4, style="line+points"))

@@ -19,18 +19,18 @@ def regular_table(level: CurtainLevel, sea: Group) -> Table | None:
         return None
     rows = (
         ("velocity_amplitude", "Velocity amplitude", "m/s"),
-        ("excursion", "Excursion", "m"),
-        ("threshold_excursion", "Excursion that pulls taut", "m"),
-        ("maximum_tension", "Tension", "N"),
-        ("maximum_tension_low", "From", "N"),
-        ("maximum_tension_high", "To", "N"),
+        ("water_excursion", "Excursion", "m"),
+        ("threshold_water_excursion", "Excursion that pulls taut", "m"),
+        ("both_cables_tension_maximum", "Tension", "N"),
+        ("both_cables_tension_maximum_low", "From", "N"),
+        ("both_cables_tension_maximum_high", "To", "N"),
         ("lower_wave_tension", "In lower waves", "N"),
         ("lower_wave_height", "of height", "m"),
         ("judged_tension", "Judged at", "N"),
         ("periods_left_out", "Periods left out", ""),
         ("periods_analysed", "Analysed", ""),
         ("repeats_after", "Repeats after", ""),
-        ("mean_tension", "Mean tension", "N"),
+        ("both_cables_tension_mean", "Mean tension", "N"),
         ("first_contact_tension", "First contacts", "N"),
         ("later_contact_tension", "Later contacts", "N"),
         ("largest_contact_speed", "Speed when taut", "m/s"),
@@ -45,7 +45,7 @@ def regular_table(level: CurtainLevel, sea: Group) -> Table | None:
     ]
     if not columns:
         return None
-    tension = sea.real("maximum_tension", "period")
+    tension = sea.real("both_cables_tension_maximum", "period")
     worst = () if tension is None or not np.isfinite(tension).any() else (int(np.nanargmax(tension)),)
     return Table(
         key(level, sea.name, "regular"),
@@ -63,16 +63,16 @@ def irregular_table(level: CurtainLevel, sea: Group) -> Table | None:
     """Return the counts and the fit of an irregular sea."""
     rows = (
         ("significant_height", "significant wave height", "m"),
-        ("maximum_tension", "largest tension of both cables, mean of the realisations", "N"),
-        ("maximum_tension_low", "of the realisations, from", "N"),
-        ("maximum_tension_high", "to", "N"),
+        ("both_cables_tension_maximum", "largest tension of both cables, mean of the realisations", "N"),
+        ("both_cables_tension_maximum_low", "of the realisations, from", "N"),
+        ("both_cables_tension_maximum_high", "to", "N"),
         ("realisations", "realisations", ""),
         ("left_out", "left out at the start of each", "s"),
         ("most_probable_maximum", "most probable maximum", "N"),
         ("most_probable_maximum_low", "its range, from", "N"),
         ("most_probable_maximum_high", "to", "N"),
         ("later_contact_tension", "largest of later contacts", "N"),
-        ("mean_tension", "mean tension", "N"),
+        ("both_cables_tension_mean", "mean tension", "N"),
         ("taut_share", "share of the time that it is taut", ""),
         ("analysed_hours", "hours analysed", ""),
         ("contact_count", "contacts", ""),
@@ -102,7 +102,9 @@ def weaker_table(level: CurtainLevel) -> Table | None:
     """Return slack and taut cycles of the seas in weaker currents than that of the case."""
     group = level.part("weaker_currents")
     names, speed = group.labels("sea"), group.real("weaker_current", "weaker_current")
-    tops, judged = (group.real(name, "sea", "weaker_current") for name in ("maximum_tension", "judged_tension"))
+    tops, judged = (
+        group.real(name, "sea", "weaker_current") for name in ("both_cables_tension_maximum", "judged_tension")
+    )
     if speed is None or tops is None or judged is None:
         return None
     columns = [Column("Current", [float(value) for value in speed], "m/s")]

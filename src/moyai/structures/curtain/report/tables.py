@@ -32,9 +32,9 @@ _BY_DRAG = (
     ("sag", "sag of the plan", "m"),
     ("strain", "strain of the cables", ""),
     ("end_angle", "angle of the cable at the support", "rad"),
-    ("anchor_force", "force on an inner anchor", "N"),
-    ("end_anchor_force", "force on an end anchor", "N"),
-    ("anchor_line_tension", "tension of an anchor line", "N"),
+    ("anchor_horizontal_tension", "force on an inner anchor", "N"),
+    ("end_anchor_horizontal_tension", "force on an end anchor", "N"),
+    ("anchor_tension", "tension of an anchor line", "N"),
     ("float_reserve", "reserve of the floats", "N/m"),
     ("float_reserve_ratio", "reserve over buoyancy", ""),
 )
@@ -52,7 +52,7 @@ _IMPACT = (
     ("rise_ratio", "rise time over √(d/g)", ""),
     ("relative_step", "ω dt of the marching", ""),
     ("time_step", "time step", "s"),
-    ("plateau_tension", "plateau by drag", "N"),
+    ("both_cables_plateau_tension", "plateau by drag", "N"),
     ("spread", "largest over smallest of all but model B literal", ""),
     ("design_tension", "tension taken for design", "N"),
 )
@@ -234,7 +234,7 @@ def paper_table(level: CurtainLevel) -> Table | None:
 def counted_spread(level: CurtainLevel) -> float:
     """Return the largest over the smallest tension of the impact models that count, NaN where there are not two."""
     group = level.part("impact")
-    tension, counts = group.real("impact_tension", "impact_model"), group.real("counts", "impact_model")
+    tension, counts = group.real("both_cables_impact_tension", "impact_model"), group.real("counts", "impact_model")
     if tension is None:
         return math.nan
     known = tension[
@@ -248,7 +248,7 @@ def counted_spread(level: CurtainLevel) -> float:
 def impact_tables(level: CurtainLevel) -> list[Table]:
     """Return all impact models in one table, and the numbers that they rest on."""
     group = level.part("impact")
-    names, tension = group.labels("impact_model"), group.real("impact_tension", "impact_model")
+    names, tension = group.labels("impact_model"), group.real("both_cables_impact_tension", "impact_model")
     if not names or tension is None:
         return []
 
@@ -302,7 +302,7 @@ def record_tables(root: Group) -> list[Table]:
         return []
     rows = (("peak", "Peak"), ("plateau", "Plateau"), ("impact", "Impact"))
     columns = [
-        Column(label, [*(float(value) for value in values), group.value(f"sum_{name}_tension")], "N")
+        Column(label, [*(float(value) for value in values), group.value(f"both_cables_{name}_tension")], "N")
         for name, label in rows
         if (values := group.real(f"cable_{name}_tension", "cable")) is not None
     ]

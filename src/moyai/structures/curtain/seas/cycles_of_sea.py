@@ -51,7 +51,9 @@ class SeaCycles:
 
     @classmethod
     def _at_value(cls, table: xr.Dataset) -> SeaCycles:
-        tops, lows, highs = (np.atleast_1d(table[f"maximum_tension{end}"].values) for end in ("", "_low", "_high"))
+        tops, lows, highs = (
+            np.atleast_1d(table[f"both_cables_tension_maximum{end}"].values) for end in ("", "_low", "_high")
+        )
         row = int(np.argmax(tops))
         top, low, high = float(tops[row]), float(lows[row]), float(highs.max())
         # results of older versions do not have it

@@ -90,7 +90,7 @@ def _loads(statics: CurtainStatics) -> tuple[float, float, float, float, float]:
         statics.upper_tension,
         statics.lower_tension,
         statics.section.sheet_tension,
-        statics.anchor_line_tension,
+        statics.anchor_tension,
         statics.section.load,
     )
 
@@ -259,7 +259,7 @@ class SeaLoads:
         current = self.normal_ratio * speed
         height = effective_height(significant_height, self.angle, self.rule, self.height_ratio)
         float_speed = self.energy.float_speed(height, self.period(significant_height), current, water)
-        steady = statics.anchor_line_tension if self.pretension is None else self.pretension
+        steady = statics.anchor_tension if self.pretension is None else self.pretension
         return float(self.energy.fluctuating_tension(float_speed, steady))
 
     def added(self, statics: CurtainStatics, significant_height: float, speed: float, water: Water) -> AddedLoads:
@@ -267,7 +267,7 @@ class SeaLoads:
         found = self.waves(statics, significant_height, speed, water)
         if self.impact is not None:
             found = found.larger(self.impact.at(self.normal_ratio * speed))
-        force, pretension = statics.anchor_line_tension, self.line_pretension
+        force, pretension = statics.anchor_tension, self.line_pretension
         if self.steady_factors is not None:
             force *= self.steady_factors.anchor_line
         rise = self._rise(statics, significant_height, speed, water)

@@ -112,11 +112,11 @@ class CurtainStatics:
     #: Tension of the lower cable [N].
     lower_tension: float
     #: Horizontal force on the anchor of an inner support, with an equal span on its other side [N].
-    anchor_force: float
+    anchor_horizontal_tension: float
     #: Horizontal force on the more loaded support of a lone span [N].
-    end_anchor_force: float
-    #: Of a straight line at the given slope that carries ``anchor_force`` [N].
-    anchor_line_tension: float
+    end_anchor_horizontal_tension: float
+    #: Of a straight line at the given slope that carries ``anchor_horizontal_tension`` [N].
+    anchor_tension: float
     #: Buoyancy left per length after weight, pull of the skirt and of the inner anchor lines [N/m]; negative drowns.
     float_reserve: float
 
@@ -200,12 +200,12 @@ def tight_line(force: float, pretension: float) -> float:
     return max(force, pretension + 0.5 * force)
 
 
-def pull_of_lines(curtain: HangingCurtain, anchor_force: float) -> float:
+def pull_of_lines(curtain: HangingCurtain, anchor_horizontal_tension: float) -> float:
     """Return the downward pull of the anchor lines on the floats [N/m] by the force of the current on an anchor [N].
 
     Lines with a pretension pull with twice that until one of them is slack.
     """
-    along = max(anchor_force / math.cos(curtain.anchor_slope), 2.0 * curtain.pretension)
+    along = max(anchor_horizontal_tension / math.cos(curtain.anchor_slope), 2.0 * curtain.pretension)
     return along * math.sin(curtain.anchor_slope) / curtain.span
 
 
@@ -250,9 +250,9 @@ def supported(
         toe_speed_ratio=toe[2],
         upper_tension=plan.tension * (1.0 - lower_share),
         lower_tension=plan.tension * lower_share,
-        anchor_force=inner,
-        end_anchor_force=lone,
-        anchor_line_tension=inner / math.cos(curtain.anchor_slope),
+        anchor_horizontal_tension=inner,
+        end_anchor_horizontal_tension=lone,
+        anchor_tension=inner / math.cos(curtain.anchor_slope),
         float_reserve=curtain.floats.buoyancy - curtain.floats.weight - down_pull,
     )
 

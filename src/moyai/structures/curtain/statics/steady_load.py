@@ -41,9 +41,9 @@ QUANTITIES: tuple[tuple[str, str, str], ...] = (
     ("upper_tension", "N", "tension of the upper cable"),
     ("lower_tension", "N", "tension of the lower cable"),
     ("sheet_tension", "N/m", "largest tension of the skirt"),
-    ("anchor_force", "N", "horizontal force on the anchor of an inner support"),
-    ("end_anchor_force", "N", "horizontal force on the more loaded support of a lone span"),
-    ("anchor_line_tension", "N", "tension of the anchor line of an inner support"),
+    ("anchor_horizontal_tension", "N", "horizontal force on the anchor of an inner support"),
+    ("end_anchor_horizontal_tension", "N", "horizontal force on the more loaded support of a lone span"),
+    ("anchor_tension", "N", "tension of the anchor line of an inner support"),
     ("float_load", "N/m", "weight and downward pull on the floats"),
     ("effective_depth", "m", "vertical reach of the skirt"),
     ("toe_gap", "m", "clearance between toe and bed"),
@@ -71,8 +71,8 @@ class SteadyState:
         more = (borne + self.extra) / borne
         buoyancy = statics.curtain.floats.buoyancy
         carried = buoyancy - statics.float_reserve
-        further = pull_of_lines(statics.curtain, scale * more * statics.anchor_force)
-        further -= pull_of_lines(statics.curtain, statics.anchor_force)
+        further = pull_of_lines(statics.curtain, scale * more * statics.anchor_horizontal_tension)
+        further -= pull_of_lines(statics.curtain, statics.anchor_horizontal_tension)
         plain = {
             "line_load": scale * section.load + self.extra,
             "sheet_tension": scale * section.sheet_tension,
@@ -88,9 +88,9 @@ class SteadyState:
         whole = {
             "span_load": sum(statics.plan.downstream_end_forces),
             "cable_tension": statics.plan.tension,
-            "anchor_force": statics.anchor_force,
-            "end_anchor_force": statics.end_anchor_force,
-            "anchor_line_tension": statics.anchor_line_tension,
+            "anchor_horizontal_tension": statics.anchor_horizontal_tension,
+            "end_anchor_horizontal_tension": statics.end_anchor_horizontal_tension,
+            "anchor_tension": statics.anchor_tension,
         }
         return scale * more * whole[name]
 

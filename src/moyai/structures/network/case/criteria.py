@@ -47,4 +47,4 @@ def criteria(model: Any, given: Any) -> Iterator[Criterion]:
         "dynamic" if "dynamic" in model.analyses else "quasi_static",
         [getattr(kind, "catalogue", None) for kind in types],
     )
-    yield from given_criteria(given)
+    yield from given_criteria(given, {"greatest_anchor_load": "point_load"})

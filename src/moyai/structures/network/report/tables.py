@@ -77,7 +77,7 @@ def rest_tables(level: NetworkLevel) -> list[Table | None]:
                 ],
             )
         )
-        load = [of("load", "point", axis=axis) for axis in "xyz"]
+        load = [of("point_load", "point", axis=axis) for axis in "xyz"]
         place = [of("point_position", "point", axis=axis) for axis in "xyz"]
         whole = None
         if all(part is not None for part in load):
@@ -158,10 +158,10 @@ def peaks_table(level: NetworkLevel, run: Group) -> Table | None:
             _column("Standard deviation", of("deviation"), "N"),
             _column("of breaking load", None if use is None else 100.0 * use, "%"),
             _column("Slack, share of time", None if (v := of("slack_share")) is None else 100.0 * v, "%"),
-            _column("Contacts", of("contacts"), "", digits=6, trim=True),
-            _column("Snaps", of("snaps"), "", digits=6, trim=True),
+            _column("Contacts", of("contact_count"), "", digits=6, trim=True),
+            _column("Snaps", of("snap_count"), "", digits=6, trim=True),
             _column("Highest snap", of("largest_snap"), "N"),
-            _column("Shortest rise", of("shortest_rise"), "s"),
+            _column("Shortest rise", of("shortest_rise_time"), "s"),
         ],
         "Highest: anywhere along the line; all three peaks are taken at every step. Mean and standard deviation: at "
         "its more loaded end. A contact ends a slack phase; a snap is a contact whose peak exceeds the threshold "
@@ -185,11 +185,11 @@ def points_table(level: NetworkLevel, run: Group) -> Table | None:
         [
             Column("Point", list(dynamic.labels("point"))),
             Column("Kind", list(texts(level.network, "point_kind"))),
-            _column("Largest pull", of("load_peak"), "N"),
-            _column("horizontal", of("load_horizontal"), "N"),
-            _column("upwards", of("load_upwards"), "N"),
-            _column("downwards", of("load_downwards"), "N"),
-            _column("Excursion", of("excursion"), "m"),
+            _column("Largest pull", of("point_load_maximum"), "N"),
+            _column("horizontal", of("point_horizontal_load_maximum"), "N"),
+            _column("upwards", of("point_upward_load_maximum"), "N"),
+            _column("downwards", of("point_downward_load_maximum"), "N"),
+            _column("Excursion", of("point_excursion"), "m"),
         ],
         "Pull of the lines on the point, taken at every step; the largest of each column, not at one time.",
     )
@@ -209,7 +209,7 @@ def bodies_table(level: NetworkLevel, run: Group) -> Table | None:
         f"Motions of bodies: {run.name}",
         [
             Column("Body", list(dynamic.labels("solid"))),
-            _column("Largest offset", of("offset"), "m"),
+            _column("Largest offset", of("largest_offset"), "m"),
             _column("Mean offset", of("mean_offset"), "m"),
             _column("Heave", of("heave_range"), "m"),
             _column("Roll", of("roll_range"), "rad"),

@@ -143,7 +143,7 @@ def criteria(model: Any, given: Any) -> Iterator[Criterion]:
         )  # fmt: skip
     if given.greatest_uplift is None and moored:
         yield plain_criterion("greatest_uplift", 0.0, UPLIFT_SOURCE)
-    yield from given_criteria(given, {"greatest_anchor_load": "anchor_horizontal_load"})
+    yield from given_criteria(given, {"greatest_anchor_load": "anchor_horizontal_tension"})
     if given.least_metacentric_height is None:
         yield plain_criterion("least_metacentric_height", STABLE_SHARE * model.structure.draught, STABLE_SOURCE)
     if given.least_freeboard is None:

@@ -98,7 +98,7 @@ def moving_line(at: RowAtLevel, number: int) -> DynamicLine:
     Raises
     ------
     InputError
-        When it finds no rest.
+        When it finds no equilibrium.
     """
     unit = [n for n, lines in enumerate(at.lines) for _ in lines][number]
     line = [line for lines in at.lines for line in lines][number]
@@ -117,7 +117,7 @@ def moving_line(at: RowAtLevel, number: int) -> DynamicLine:
             rest = solve_equilibrium(network)
         except ConvergenceError as error:
             raise InputError(
-                f"line '{line.name}' in motion finds no rest: {error.fault.message}", parameter="lines",
+                f"line '{line.name}' in motion finds no equilibrium: {error.fault.message}", parameter="lines",
                 remedy=error.fault.remedy,
             ) from error  # fmt: skip
         found = float(end_tensions(network, line.name, rest.state.position[None], rest.tension[None])[0][0])
@@ -200,7 +200,7 @@ def rerun_events(at: RowAtLevel, members: Sequence[Carried], progress: Progress,
     Raises
     ------
     InputError, ConvergenceError
-        When a line finds no rest, or a rerun does not come to its end.
+        When a line finds no equilibrium, or a rerun does not come to its end.
     """
     largest = np.array([item.tension[item.time >= item.begin].max(axis=0) for item in members])
     mean = np.array([item.tension[item.time >= item.begin].mean(axis=0) for item in members])
