@@ -97,7 +97,7 @@ def planar_unit():
     memory = StateSpaceMemory(poles, inputs, 1e4 * inputs.T.conj(), np.diag([1e4, 2e4, 1e5]))
     model = CumminsModel(inertia, np.diag([2e4, 2e6, 1.2e7]), damping, memory)
     forcing = RegularForcing(
-        omega=1.3, wave_amplitude=0.6, excitation=np.array([4e5 + 1e5j, 6e5 - 2e5j, 1e6j]),
+        omega=1.3, wave_amplitude=0.6, excitation_force=np.array([4e5 + 1e5j, 6e5 - 2e5j, 1e6j]),
         mean_drift=np.array([2e4, 0.0, 0.0]), steady=np.zeros(3), ramp=8.0,
     )  # fmt: skip
     return builder.build(), PlanarBody("unit", model, forcing, duration=64.0, points=points)

@@ -30,8 +30,8 @@ def test_frequency_domain_with_drift(line: np.ndarray) -> None:
     far = found.far
     values = [
         *motion,
-        abs(far.reflection[index, 0]),
-        abs(far.transmission[index, 0]),
+        abs(far.reflection_coefficient[index, 0]),
+        abs(far.transmission_coefficient[index, 0]),
         far.loss[index, 0],
         far.drift_coefficient[index, 0],
     ]
@@ -45,7 +45,9 @@ def test_frequency_domain_with_drift(line: np.ndarray) -> None:
 def test_loss_is_the_work_of_the_damping_and_drift_is_momentum() -> None:
     found = model.paper_drift()
     assert energy_check(found.far, found.motions, model.WATER, model.LENGTH, tolerance=1e-9).passed
-    momentum = 0.5 * (1.0 + np.abs(found.far.reflection) ** 2 - np.abs(found.far.transmission) ** 2)
+    momentum = 0.5 * (
+        1.0 + np.abs(found.far.reflection_coefficient) ** 2 - np.abs(found.far.transmission_coefficient) ** 2
+    )
     assert np.allclose(found.far.drift_coefficient, momentum, atol=1e-14)
 
 
@@ -100,7 +102,7 @@ def test_undamped_motion() -> None:
     lowest = np.abs(
         far_field(
             model.paper_hydrodynamics(tuple(np.linspace(4.0, 11.0, 60))).at(peak[2].omega), peak[2].displacement
-        ).transmission
+        ).transmission_coefficient
     )
     assert lowest.min() == pytest.approx(0.36, abs=5e-3)
 
@@ -142,8 +144,13 @@ def test_reflection_and_transmission_from_time_domain_motions() -> None:
         displacement[model.row(period), 0] = model.paper_time(period)[1].first / model.WAVE_AMPLITUDE
         moving = far_field(hydro, displacement)
         index = model.row(period)
-        assert abs(abs(moving.reflection[index, 0]) - abs(found.far.reflection[index, 0])) < 0.012
-        assert abs(abs(moving.transmission[index, 0]) - abs(found.far.transmission[index, 0])) < 0.012
+        assert (
+            abs(abs(moving.reflection_coefficient[index, 0]) - abs(found.far.reflection_coefficient[index, 0])) < 0.012
+        )
+        assert (
+            abs(abs(moving.transmission_coefficient[index, 0]) - abs(found.far.transmission_coefficient[index, 0]))
+            < 0.012
+        )
 
 
 def test_statements_of_the_paper() -> None:
@@ -179,7 +186,7 @@ def test_snapping_chains_at_the_chosen_step() -> None:
         body.inertia + infinite, body.statics.stiffness, damping, model.paper_memory(), mooring=body.mooring
     )
     wave = RegularForcing(
-        float(hydro.omega[index]), 0.04, hydro.excitation[index, 0], np.zeros(3), np.zeros(3), ramp=9.6
+        float(hydro.omega[index]), 0.04, hydro.excitation_force[index, 0], np.zeros(3), np.zeros(3), ramp=9.6
     )
     chosen = simulate(cummins, wave, duration=32.0, expected_motion=(0.04, 0.03, 0.1))
     fine = simulate(cummins, wave, duration=32.0, time_step=0.0025)

@@ -23,7 +23,10 @@ if TYPE_CHECKING:
 
     from moyai.potential.solution import RadiationDiffraction
 
-_OVER_FREQUENCY = ("added_mass", "radiation_damping", "excitation", "reflection", "transmission", "radiated_wave")
+_OVER_FREQUENCY = (
+    "added_mass", "radiation_damping", "excitation_force", "reflection_coefficient", "transmission_coefficient",
+    "radiated_wave",
+)  # fmt: skip
 
 
 @dataclass(frozen=True)
@@ -53,18 +56,18 @@ class Hydrodynamics:
     #: Radiation damping in the same order [kg/s, kg m/s, kg m2/s]; shape (n, m, m).
     radiation_damping: Array
     #: Complex force per unit wave amplitude [N/m, N]; shape (n, h, m).
-    excitation: ComplexArray
+    excitation_force: ComplexArray
     #: Directions of travel [rad]; shape (h,).
     heading: Array
     #: Names of the m modes.
     modes: tuple[str, ...]
     #: Shape (m, m).
     infinite_frequency_added_mass: Array | None = None
-    #: ``reflection``, ``transmission``: Complex coefficients of the body held fixed; ``None`` for a body of finite
-    #: length; shape (n, h).
-    reflection: ComplexArray | None = None
-    #: See ``reflection``.
-    transmission: ComplexArray | None = None
+    #: ``reflection_coefficient``, ``transmission_coefficient``: Complex, of the body held fixed; ``None`` for
+    #: a body of finite length; shape (n, h).
+    reflection_coefficient: ComplexArray | None = None
+    #: See ``reflection_coefficient``.
+    transmission_coefficient: ComplexArray | None = None
     #: Complex wave amplitude per unit velocity towards -x and +x [s]; shape (n, m, 2).
     radiated_wave: ComplexArray | None = None
     #: Length of structure that forces and coefficients refer to [m]; 1 for coefficients per metre.
@@ -78,10 +81,10 @@ class Hydrodynamics:
         shapes = {
             "added_mass": (n, m, m),
             "radiation_damping": (n, m, m),
-            "excitation": (n, h, m),
+            "excitation_force": (n, h, m),
             "infinite_frequency_added_mass": (m, m),
-            "reflection": (n, h),
-            "transmission": (n, h),
+            "reflection_coefficient": (n, h),
+            "transmission_coefficient": (n, h),
             "radiated_wave": (n, m, 2),
         }
         for name, shape in shapes.items():
@@ -100,7 +103,8 @@ class Hydrodynamics:
     @property
     def has_far_field(self) -> bool:
         """Whether reflection, transmission and radiated waves are known."""
-        return not (self.reflection is None or self.transmission is None or self.radiated_wave is None)
+        known = self.reflection_coefficient, self.transmission_coefficient, self.radiated_wave
+        return not any(values is None for values in known)
 
     @classmethod
     def of_headings(cls, dataset: xr.Dataset) -> tuple[Hydrodynamics, ...]:
@@ -126,7 +130,7 @@ class Hydrodynamics:
             self,
             added_mass=self.added_mass * factor,
             radiation_damping=self.radiation_damping * factor,
-            excitation=self.excitation * factor,
+            excitation_force=self.excitation_force * factor,
             infinite_frequency_added_mass=None if infinite is None else infinite * factor,
             length=float(length),
         )
@@ -189,9 +193,9 @@ class Hydrodynamics:
         """
         frequency = np.clip(np.atleast_1d(np.asarray(omega, dtype=float)), self.omega[0], self.omega[-1])
         if len(self.omega) == 1:
-            spread = np.repeat(self.excitation, len(frequency), axis=0)
+            spread = np.repeat(self.excitation_force, len(frequency), axis=0)
         else:
-            spread = scipy.interpolate.CubicSpline(self.omega, self.excitation, axis=0)(frequency)
+            spread = scipy.interpolate.CubicSpline(self.omega, self.excitation_force, axis=0)(frequency)
         if heading is None:
             if len(self.heading) != 1:
                 raise InputError("several headings are computed and none is named", parameter="heading")
@@ -251,12 +255,12 @@ class Hydrodynamics:
             omega=solution.omega[order],
             added_mass=np.ascontiguousarray(solution.added_mass[order].swapaxes(1, 2)),
             radiation_damping=np.ascontiguousarray(solution.radiation_damping[order].swapaxes(1, 2)),
-            excitation=solution.excitation_force[order, first],
+            excitation_force=solution.excitation_force[order, first],
             heading=np.asarray(solution.heading, dtype=float)[first],
             modes=tuple(solution.modes.names),
             infinite_frequency_added_mass=np.ascontiguousarray(solution.infinite_frequency_added_mass.T),
-            reflection=solution.reflection_coefficient[order, first],
-            transmission=solution.transmission_coefficient[order, first],
+            reflection_coefficient=solution.reflection_coefficient[order, first],
+            transmission_coefficient=solution.transmission_coefficient[order, first],
             radiated_wave=solution.radiated_wave[order],
         )
 
@@ -311,12 +315,12 @@ class Hydrodynamics:
             omega=np.atleast_1d(data["omega"].values.astype(float)),
             added_mass=values("added_mass", "omega", "influenced_dof", "radiating_dof"),
             radiation_damping=values("radiation_damping", "omega", "influenced_dof", "radiating_dof"),
-            excitation=values("excitation_force", "omega", "wave_direction", "influenced_dof"),
+            excitation_force=values("excitation_force", "omega", "wave_direction", "influenced_dof"),
             heading=np.asarray(heading, dtype=float),
             modes=names,
             infinite_frequency_added_mass=infinite,
-            reflection=values("reflection_coefficient", "omega", "wave_direction"),
-            transmission=values("transmission_coefficient", "omega", "wave_direction"),
+            reflection_coefficient=values("reflection_coefficient", "omega", "wave_direction"),
+            transmission_coefficient=values("transmission_coefficient", "omega", "wave_direction"),
             radiated_wave=None if wave is None else np.ascontiguousarray(wave),
             length=length,
         )

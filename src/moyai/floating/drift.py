@@ -67,12 +67,16 @@ class DriftProblem:
         """Return the coefficients of the heading in use."""
         chosen = slice(self.heading_index, self.heading_index + 1)
         hydro = self.hydrodynamics
+
+        def of_heading(values: ComplexArray | None) -> ComplexArray | None:
+            return None if values is None else values[:, chosen]
+
         return replace(
             hydro,
             heading=hydro.heading[chosen],
-            excitation=hydro.excitation[:, chosen],
-            reflection=None if hydro.reflection is None else hydro.reflection[:, chosen],
-            transmission=None if hydro.transmission is None else hydro.transmission[:, chosen],
+            excitation_force=hydro.excitation_force[:, chosen],
+            reflection_coefficient=of_heading(hydro.reflection_coefficient),
+            transmission_coefficient=of_heading(hydro.transmission_coefficient),
         )
 
 
@@ -85,9 +89,9 @@ def _rows(hydrodynamics: Hydrodynamics, rows: slice) -> Hydrodynamics:
         omega=hydrodynamics.omega[rows],
         added_mass=hydrodynamics.added_mass[rows],
         radiation_damping=hydrodynamics.radiation_damping[rows],
-        excitation=hydrodynamics.excitation[rows],
-        reflection=taken(hydrodynamics.reflection),
-        transmission=taken(hydrodynamics.transmission),
+        excitation_force=hydrodynamics.excitation_force[rows],
+        reflection_coefficient=taken(hydrodynamics.reflection_coefficient),
+        transmission_coefficient=taken(hydrodynamics.transmission_coefficient),
         radiated_wave=taken(hydrodynamics.radiated_wave),
     )
 
@@ -305,7 +309,7 @@ def _joined(
     far = FarField(
         *(
             np.concatenate([getattr(state.far, name) for state in states])
-            for name in ("reflection", "transmission", "loss", "drift_coefficient")
+            for name in ("reflection_coefficient", "transmission_coefficient", "loss", "drift_coefficient")
         )
     )
     return DriftedMotions(

@@ -21,9 +21,9 @@ class FarField:
     """Waves far from the moving section and what they cost, per frequency and heading."""
 
     #: Complex reflection coefficient of the moving body; shape (n, h).
-    reflection: ComplexArray
+    reflection_coefficient: ComplexArray
     #: Complex transmission coefficient of the moving body; shape (n, h).
-    transmission: ComplexArray
+    transmission_coefficient: ComplexArray
     #: E_L = 1 - |R|^2 - |T|^2; shape (n, h).
     loss: Array
     #: F* = |R|^2 + E_L / 2; shape (n, h).
@@ -46,8 +46,8 @@ def far_field(hydrodynamics: Hydrodynamics, displacement: ComplexArray) -> FarFi
         When the coefficients hold no far field (a body of finite length).
     """
     reflection, transmission, radiated = (
-        hydrodynamics.reflection,
-        hydrodynamics.transmission,
+        hydrodynamics.reflection_coefficient,
+        hydrodynamics.transmission_coefficient,
         hydrodynamics.radiated_wave,
     )
     if reflection is None or transmission is None or radiated is None:
@@ -62,8 +62,8 @@ def far_field(hydrodynamics: Hydrodynamics, displacement: ComplexArray) -> FarFi
     moving_transmission = transmission + waves[..., 1]
     loss = 1.0 - np.abs(moving_reflection) ** 2 - np.abs(moving_transmission) ** 2
     return FarField(
-        reflection=moving_reflection,
-        transmission=moving_transmission,
+        reflection_coefficient=moving_reflection,
+        transmission_coefficient=moving_transmission,
         loss=loss,
         drift_coefficient=np.abs(moving_reflection) ** 2 + 0.5 * loss,
     )

@@ -94,7 +94,7 @@ class RegularForcing:
     #: [m].
     wave_amplitude: float
     #: Complex force per unit amplitude, phase at x = 0; shape (m,).
-    excitation: ComplexArray
+    excitation_force: ComplexArray
     #: Mean second-order force [N, N, N m]; shape (m,).
     mean_drift: Array
     #: Wind and current; shape (m,).
@@ -106,7 +106,7 @@ class RegularForcing:
 
     def __post_init__(self) -> None:
         positive(self.omega, "omega")
-        for name in ("excitation", "mean_drift", "steady"):
+        for name in ("excitation_force", "mean_drift", "steady"):
             finite(getattr(self, name), name)
 
     @property
@@ -130,7 +130,7 @@ class RegularForcing:
         time = step * np.arange(count)
         shape = cosine_ramp(time, self.ramp)
         carrier = self.wave_amplitude * np.exp(-1j * self.omega * time)
-        force = (carrier[:, None] * np.asarray(self.excitation)).real
+        force = (carrier[:, None] * np.asarray(self.excitation_force)).real
         pulse = 1.0 + np.cos(2.0 * self.omega * time) if self.drift_law == "pulsating" else np.ones(count)
         force = force + pulse[:, None] * np.asarray(self.mean_drift) + np.asarray(self.steady)
         return shape[:, None] * force, shape * carrier.real
@@ -146,7 +146,7 @@ class IrregularForcing:
     #: Complex amplitudes ``a exp(i phase)`` at x = 0 [m]; shape (k,).
     amplitude: ComplexArray
     #: Complex force per unit amplitude of each component; shape (k, m).
-    excitation: ComplexArray
+    excitation_force: ComplexArray
     #: Mean drift force over amplitude squared of each component [N/m2]; shape (k, m).
     drift: Array | None
     #: Wind and current, and the mean drift when ``drift_law`` is ``"ramped"``; shape (m,).
@@ -169,7 +169,7 @@ class IrregularForcing:
                 raise InputError(
                     "the drift changes sign over the spectrum", parameter="drift", remedy='use drift_law="newman"'
                 )
-        for name in ("omega", "amplitude", "excitation", "steady"):
+        for name in ("omega", "amplitude", "excitation_force", "steady"):
             finite(getattr(self, name), name)
 
     @classmethod
@@ -217,7 +217,7 @@ class IrregularForcing:
         return cls(
             omega=omega,
             amplitude=amplitude,
-            excitation=hydrodynamics.excitation_at(omega, None if single else sea.heading[keep]),
+            excitation_force=hydrodynamics.excitation_at(omega, None if single else sea.heading[keep]),
             drift=drift,
             steady=np.zeros(size) if steady is None else np.asarray(steady, dtype=float),
             drift_law=drift_law,
@@ -264,13 +264,13 @@ class IrregularForcing:
     def mean_drift(self) -> Array:
         """Return the mean drift force (m,) of the sea, sum of T_i |a_i|^2."""
         if self.drift is None or self.drift_law == "none":
-            return np.zeros(self.excitation.shape[1])
+            return np.zeros(self.excitation_force.shape[1])
         return np.asarray(np.abs(self.amplitude) ** 2 @ self.drift, dtype=float)
 
     def sample(self, step: float, count: int) -> tuple[Array, Array]:
         """Return forces and the incident surface at x = 0."""
-        modes = self.excitation.shape[1]
-        rows = [self.amplitude[:, None], self.amplitude[:, None] * self.excitation]
+        modes = self.excitation_force.shape[1]
+        rows = [self.amplitude[:, None], self.amplitude[:, None] * self.excitation_force]
         slow = self.drift is not None and self.drift_law in ("newman", "newman_product")
         if slow:
             assert self.drift is not None

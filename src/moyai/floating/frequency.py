@@ -187,7 +187,7 @@ def solve_motions(
     carried = np.zeros((count, headings, size), dtype=np.complex128)
 
     def solution(extra: Array, carried: ComplexArray) -> tuple[ComplexArray, Array]:
-        right = hydrodynamics.excitation + carried
+        right = hydrodynamics.excitation_force + carried
         return solve_scaled(dynamic_stiffness(omega, mass, radiation + extra, stiffness), right)
 
     extra, added, started_near = constant, np.zeros_like(constant), start is not None and iterated

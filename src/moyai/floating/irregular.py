@@ -331,7 +331,7 @@ def linearised_in_sea(
             parameter="density",
         )
     known = [_fixed_part(part, inertia, stiffness, linear) for part in parts]
-    excitation = np.concatenate([part.excitation for part in parts], axis=1)
+    excitation = np.concatenate([part.excitation_force for part in parts], axis=1)
     sea = _Linearised(omega, wave, size, quadratic, line_damping, water_motion if quadratic is not None else None)
     state = sea.state_of(np.zeros_like(excitation)) if sea.water_motion is not None else None
     state, mixing, turn = state if start is None else start.state, Mixing(), 1j * omega[:, None, None]
@@ -355,7 +355,7 @@ def linearised_in_sea(
     total = LinearDamping(linear.matrix + equivalent, linear.critical_fraction)
     motions = _joined(
         [
-            solve_motions(replace(part, excitation=push), inertia, stiffness, damping=total)
+            solve_motions(replace(part, excitation_force=push), inertia, stiffness, damping=total)
             for part, push in zip(parts, np.split(excitation + drag, ends[:-1], axis=1), strict=True)
         ]
     )

@@ -164,7 +164,7 @@ def paper_time(period: float, linear_mooring: bool = False, lines: int = 4) -> t
     wave = RegularForcing(
         omega=float(hydro.omega[index]),
         wave_amplitude=WAVE_AMPLITUDE,
-        excitation=hydro.excitation[index, 0],
+        excitation_force=hydro.excitation_force[index, 0],
         mean_drift=np.array([drift, 0.0, 0.0]),
         steady=np.zeros(3),
         ramp=6.0 * period,
@@ -267,8 +267,8 @@ def _natural_period(mode: int, lines: int, fixed: bool) -> float:
 def _fixed_quantity(name: str, period: float) -> float:
     found, index = paper_drift(), row(period)
     values = {
-        "reflection": abs(found.far.reflection[index, 0]),
-        "transmission": abs(found.far.transmission[index, 0]),
+        "reflection": abs(found.far.reflection_coefficient[index, 0]),
+        "transmission": abs(found.far.transmission_coefficient[index, 0]),
         "loss": found.far.loss[index, 0],
         "drift coefficient": found.far.drift_coefficient[index, 0],
         "drift force": found.drift_force[index],

@@ -155,7 +155,7 @@ def test_the_lines_alone_make_the_difference():
         hydro.radiation_damping[0] + damping,
         unit.statics.stiffness,
     )
-    motion = np.abs(np.linalg.solve(matrix, 0.02 * hydro.excitation[0, 0] + force))
+    motion = np.abs(np.linalg.solve(matrix, 0.02 * hydro.excitation_force[0, 0] + force))
     assert motion == pytest.approx(found.dataset.motion_amplitude.values[0], rel=2e-3)
     # the tangent of the lines gives another roll
     assert motion[2] < 0.92 * float(frequency.motion_amplitude.values[0, 2])
@@ -242,7 +242,7 @@ def test_chains_at_rest_at_every_instant_have_two_states_for_one_wave():
     damping = linear_damping(model, hydro.added_mass[0], model.stiffness)
     lines = compiled_lines(unit, np.array([0.1, 0.05, 0.3]))
     cummins = replace(unit_memory(model).model(model, damping), mooring=lines)
-    wave = RegularForcing(omega, 0.5 * height, hydro.excitation[0, 0], np.zeros(3), np.zeros(3))
+    wave = RegularForcing(omega, 0.5 * height, hydro.excitation_force[0, 0], np.zeros(3), np.zeros(3))
     course = period * np.array([0, 40, 100, 120, 150, 170, 230])
     run_of = simulate(
         cummins, Swelling(wave, course, [0, 1, 1, 1.15, 1.15, 1, 1]), duration=course[-1], time_step=0.016

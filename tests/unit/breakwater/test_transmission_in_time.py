@@ -25,8 +25,8 @@ def test_waves_that_pass_and_waves_that_motions_make_add_at_their_frequency():
     radiated[:, 0] = np.array([-0.4, 0.4]) * OMEGA[:, None] ** 0
     hydro = Hydrodynamics(
         OMEGA, *[np.multiply.outer(ones, np.eye(3))] * 2, np.zeros((len(OMEGA), 1, 3), dtype=complex),
-        np.zeros(1), ("sway", "heave", "roll"), reflection=(0.3 * OMEGA - 0.1j)[:, None],
-        transmission=(1.0 - 0.3 * OMEGA + 0.2j)[:, None], radiated_wave=radiated,
+        np.zeros(1), ("sway", "heave", "roll"), reflection_coefficient=(0.3 * OMEGA - 0.1j)[:, None],
+        transmission_coefficient=(1.0 - 0.3 * OMEGA + 0.2j)[:, None], radiated_wave=radiated,
     )  # fmt: skip
     run = SimpleNamespace(time=time, elevation=elevation, position=position)
     sea = SimpleNamespace(heading=0.0, spectrum=SimpleNamespace(quantile=lambda share: np.where(share < 0.5, 0.4, 2.5)))

@@ -51,7 +51,7 @@ def test_body_on_springs_moves_as_in_the_time_domain_of_the_breakwater(seed: int
         return PlanarMooring.of(system, rest=(0.0, 0.0, 0.0), centre=(0.0, 0.0))
 
     forcing = RegularForcing(
-        omega=1.4, wave_amplitude=0.06, excitation=np.array([900.0 + 300j, 1500.0 - 200j, 250.0j]),
+        omega=1.4, wave_amplitude=0.06, excitation_force=np.array([900.0 + 300j, 1500.0 - 200j, 250.0j]),
         mean_drift=np.array([20.0, 0.0, 0.0]), steady=np.zeros(3), ramp=8.0,
     )  # fmt: skip
     rng = np.random.default_rng(seed + 10)

@@ -30,7 +30,7 @@ def run(monkeypatch: pytest.MonkeyPatch, flow: Flow, *, compiled: bool, stiffnes
         builder.driven(name, points[name])
         builder.line(name, f"{name} anchor", name, line, length=5.6, segments=4, shape="straight")
     forcing = RegularForcing(
-        omega=1.4, wave_amplitude=0.06, excitation=np.array([1900.0 + 300j, 1500.0 - 200j, 450.0j]),
+        omega=1.4, wave_amplitude=0.06, excitation_force=np.array([1900.0 + 300j, 1500.0 - 200j, 450.0j]),
         mean_drift=np.array([20.0, 0.0, 0.0]), steady=np.zeros(3), ramp=4.0,
     )  # fmt: skip
     body = PlanarBody(

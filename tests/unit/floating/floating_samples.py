@@ -38,7 +38,7 @@ def hydrodynamics_of(
         omega=omega,
         added_mass=infinite - transfer.imag / omega[:, None, None],
         radiation_damping=transfer.real,
-        excitation=excitation,
+        excitation_force=excitation,
         heading=np.linspace(0.0, 0.5, headings) if headings > 1 else np.zeros(1),
         modes=tuple(f"mode{index}" for index in range(size)),
         infinite_frequency_added_mass=infinite,

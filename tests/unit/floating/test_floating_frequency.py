@@ -48,7 +48,7 @@ def test_motion_satisfies_the_real_equations_of_both_phases(seed: int, size: int
                 turn = np.exp(-1j * phase)
                 position, velocity, acceleration = (x * turn).real, (-1j * w * x * turn).real, (-(w**2) * x * turn).real
                 left = inertia @ acceleration + (hydro.radiation_damping[n] + extra) @ velocity + stiffness @ position
-                assert np.allclose(left, (hydro.excitation[n, h] * turn).real, atol=1e-9)
+                assert np.allclose(left, (hydro.excitation_force[n, h] * turn).real, atol=1e-9)
 
 
 def test_units_do_not_change_the_answer() -> None:
@@ -59,7 +59,7 @@ def test_units_do_not_change_the_answer() -> None:
         hydro.omega,
         hydro.added_mass * square,
         hydro.radiation_damping * square,
-        hydro.excitation * scale,
+        hydro.excitation_force * scale,
         hydro.heading,
         hydro.modes,
     )
@@ -298,13 +298,13 @@ def test_coefficients_interpolate_and_refuse() -> None:
         hydro.excitation_at([1.0], [2.0])
     between = hydro.excitation_at([1.0, 1.0, 1.0], [0.0, 0.25, 0.5])
     assert np.allclose(between[1], 0.5 * (between[0] + between[2]))
-    assert np.allclose(hydro.scaled_to(3.0).excitation, 3.0 * hydro.excitation)
+    assert np.allclose(hydro.scaled_to(3.0).excitation_force, 3.0 * hydro.excitation_force)
     with pytest.raises(InputError, match="not finite"):
         Hydrodynamics(
             hydro.omega,
             hydro.added_mass * np.nan,
             hydro.radiation_damping,
-            hydro.excitation,
+            hydro.excitation_force,
             hydro.heading,
             hydro.modes,
         )

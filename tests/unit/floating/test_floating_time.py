@@ -166,7 +166,9 @@ def test_regular_waves_reproduce_the_frequency_domain(seed: int) -> None:
     model = CumminsModel(mass + infinite, stiffness, damping, memory)
     for index in (2, 7):
         period = 2 * np.pi / omega[index]
-        wave = RegularForcing(omega[index], 0.7, hydro.excitation[index, 0], np.zeros(3), np.zeros(3), ramp=4 * period)
+        wave = RegularForcing(
+            omega[index], 0.7, hydro.excitation_force[index, 0], np.zeros(3), np.zeros(3), ramp=4 * period
+        )
         run = simulate(model, wave, duration=60 * period)
         fitted = fit_last_periods(run.time, run.position, omega[index], periods=10)
         expected = 0.7 * motions.displacement[index, 0]

@@ -15,7 +15,7 @@ def test_a_solution_gives_the_coefficients_of_its_dataset() -> None:
     straight, read = Hydrodynamics.from_section(found), Hydrodynamics.from_dataset(found.dataset)
     assert straight.modes == read.modes and straight.length == read.length
     for name in (
-        "omega", "heading", "added_mass", "radiation_damping", "excitation", "infinite_frequency_added_mass",
-        "reflection", "transmission", "radiated_wave",
+        "omega", "heading", "added_mass", "radiation_damping", "excitation_force", "infinite_frequency_added_mass",
+        "reflection_coefficient", "transmission_coefficient", "radiated_wave",
     ):  # fmt: skip
         np.testing.assert_array_equal(getattr(straight, name), getattr(read, name), err_msg=name)

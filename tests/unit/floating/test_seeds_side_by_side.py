@@ -49,7 +49,7 @@ def sea(seed: int, size: float = 1.0) -> IrregularForcing:
     excitation = np.tile(np.array([3e5, 5e5, 9e5], dtype=complex), (12, 1))
     drift = np.tile(np.array([4e3, 0.0, 0.0]), (12, 1))
     return IrregularForcing(
-        omega=OMEGA, amplitude=amplitude, excitation=excitation, drift=drift, steady=np.array([2e3, 0.0, 0.0]),
+        omega=OMEGA, amplitude=amplitude, excitation_force=excitation, drift=drift, steady=np.array([2e3, 0.0, 0.0]),
         drift_law="newman", ramp=5.0,
     )  # fmt: skip
 

@@ -85,6 +85,6 @@ def section_answer(at: RowAtLevel, omega: Array, headings: Array, progress: Prog
         solved = solve_motions(hydro, inertia, stiffness, damping=damping)
         far = far_field(hydro, solved.displacement)
         motion[:, index] = solved.displacement[:, 0]
-        transmission[:, index] = np.abs(far.transmission[:, 0])
+        transmission[:, index] = np.abs(far.transmission_coefficient[:, 0])
         drift[:, index] = drift_force_per_amplitude_squared(far, hydro.omega, hydro.heading, at.water, row.length)[:, 0]
     return SectionAnswer(transmission, motion, drift)

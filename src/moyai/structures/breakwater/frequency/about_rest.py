@@ -143,7 +143,7 @@ def driven_motions(
     if moving is None or model.quadratic is None:
         return solve_motions(hydro, model.inertia, stiffness, damping=damping)
     drag = model.quadratic.carried_irregular(deviation, moving)
-    driven = replace(hydro, excitation=hydro.excitation + drag)
+    driven = replace(hydro, excitation_force=hydro.excitation_force + drag)
     return replace(solve_motions(driven, model.inertia, stiffness, damping=damping), drag_excitation=drag)
 
 

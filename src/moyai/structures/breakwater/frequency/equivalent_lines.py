@@ -60,7 +60,9 @@ class _Wave:
         without = dynamic_stiffness(omega, unit.inertia + hydro.added_mass[0], damping, unit.statics.stiffness)
         whole = dynamic_stiffness(omega, model.inertia + hydro.added_mass[0], damping + of_moving, restoring)
         mean, first = self.lines.harmonics(offset, motion)
-        step = solve_scaled(whole, self.amplitude * hydro.excitation[0, 0] + carried + first - without @ motion)[0]
+        step = solve_scaled(whole, self.amplitude * hydro.excitation_force[0, 0] + carried + first - without @ motion)[
+            0
+        ]
         drift = self._drift(motion)
         load = model.steady + np.array([drift, 0.0, 0.0]) + mean
         shift = np.linalg.solve(restoring, load - unit.statics.stiffness @ offset)

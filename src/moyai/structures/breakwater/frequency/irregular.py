@@ -88,8 +88,8 @@ def irregular_sea(
     }
     if hydros[0].has_far_field:
         waves_of = [far_field(item, motions.displacement[:, [column]]) for column, item in enumerate(hydros)]
-        reflected = np.concatenate([np.abs(item.reflection) for item in waves_of], axis=1)
-        transmitted = np.concatenate([np.abs(item.transmission) for item in waves_of], axis=1)
+        reflected = np.concatenate([np.abs(item.reflection_coefficient) for item in waves_of], axis=1)
+        transmitted = np.concatenate([np.abs(item.transmission_coefficient) for item in waves_of], axis=1)
         coefficient = energy_transmission(omega, transmitted, directional)
         out |= {
             "transmission_coefficient": ((), coefficient),
@@ -280,7 +280,7 @@ def _band(
 def _transmission(hydros: list[Hydrodynamics], motions: Motions, directional: Array) -> float:
     """Return the energy-weighted transmission of a sea."""
     waves = [far_field(item, motions.displacement[:, [column]]) for column, item in enumerate(hydros)]
-    transmitted = np.concatenate([np.abs(item.transmission) for item in waves], axis=1)
+    transmitted = np.concatenate([np.abs(item.transmission_coefficient) for item in waves], axis=1)
     return energy_transmission(hydros[0].omega, transmitted, directional)
 
 

@@ -171,8 +171,8 @@ def far_field_variables(
     """Return magnitudes of reflection and transmission, and the drift [eq:breakwater-drift-coefficient]."""
     drift = drift_force_per_amplitude_squared(far, hydro.omega, hydro.heading, unit.water, hydro.length)
     return {
-        "reflection_coefficient": (dims, np.abs(far.reflection[:, 0])),
-        "transmission_coefficient": (dims, np.abs(far.transmission[:, 0])),
+        "reflection_coefficient": (dims, np.abs(far.reflection_coefficient[:, 0])),
+        "transmission_coefficient": (dims, np.abs(far.transmission_coefficient[:, 0])),
         "dissipation": (dims, far.loss[:, 0]),
         "drift_coefficient": (dims, far.drift_coefficient[:, 0]),
         "mean_drift_force_per_amplitude_squared": (dims, drift[:, 0]),

@@ -64,8 +64,8 @@ def operators(model: FrequencyModel, omega: Array, heading: float, seas: tuple[S
         far = far_field(hydro, motions.displacement)
         out |= far_field_variables(far, hydro, unit, ("omega",))
         # Operators keep the phase, for drawing the water; sea states give magnitudes
-        out["reflection_coefficient"] = ("omega", far.reflection[:, 0])
-        out["transmission_coefficient"] = ("omega", far.transmission[:, 0])
+        out["reflection_coefficient"] = ("omega", far.reflection_coefficient[:, 0])
+        out["transmission_coefficient"] = ("omega", far.transmission_coefficient[:, 0])
         checks = energy_identity(model, far, motions, hydro, unit.name)
     length = wavelengths(omega, unit)
     k = 2.0 * math.pi / length
@@ -108,7 +108,7 @@ def _band(model: FrequencyModel, hydro: Hydrodynamics, amplitude: Array, solved:
         "motion_amplitude_high": (("period", "dof"), motion.max(axis=0)),
     }
     if hydro.has_far_field:
-        passed = np.array([np.abs(item.far.transmission[:, 0]) for item in answers])
+        passed = np.array([np.abs(item.far.transmission_coefficient[:, 0]) for item in answers])
         out["transmission_coefficient_low"] = (("period",), passed.min(axis=0))
         out["transmission_coefficient_high"] = (("period",), passed.max(axis=0))
     return out

@@ -208,7 +208,7 @@ def _prepared(shared: _Sea, seed: int) -> tuple[IrregularForcing, Forcing, SeaOf
     forcing = IrregularForcing(
         omega=components.omega,
         amplitude=amplitude,
-        excitation=excitation,
+        excitation_force=excitation,
         drift=drift,
         steady=model.steady,
         drift_law=shared.law,  # type: ignore[arg-type]
@@ -425,10 +425,17 @@ def _excitation_of_headings(model: FrequencyModel) -> Hydrodynamics:
     high = min(float(item.omega[-1]) for item in every)
     shortest = min(every, key=lambda item: len(item.omega))
     omega = shortest.omega[(shortest.omega >= low) & (shortest.omega <= high)]
-    loads = np.concatenate([item.at(omega).excitation for item in every], axis=1)
+    loads = np.concatenate([item.at(omega).excitation_force for item in every], axis=1)
     first = every[0].at(omega)
     heading = np.array([float(item.heading[0]) for item in every])
-    return replace(first, heading=heading, excitation=loads, reflection=None, transmission=None, radiated_wave=None)
+    return replace(
+        first,
+        heading=heading,
+        excitation_force=loads,
+        reflection_coefficient=None,
+        transmission_coefficient=None,
+        radiated_wave=None,
+    )
 
 
 def _drift_of_components(model: FrequencyModel, omega: Array, heading: Array, sea: IrregularSea) -> Array | None:
@@ -511,7 +518,7 @@ def _transmission(model: FrequencyModel, run: Simulation, sea: IrregularSea, ram
     nothing and is left out with everything outside the band of the waves. Long-crested seas only.
     """
     hydro = model.hydro.whole(sea.heading)
-    if hydro.reflection is None or hydro.transmission is None or hydro.radiated_wave is None:
+    if hydro.reflection_coefficient is None or hydro.transmission_coefficient is None or hydro.radiated_wave is None:
         return {}
     keep = run.time >= ramp
     window = np.hanning(int(keep.sum()))
@@ -527,7 +534,7 @@ def _transmission(model: FrequencyModel, run: Simulation, sea: IrregularSea, ram
 
     wave = spectrum(run.elevation[keep])
     at = hydro.at(omega[band])
-    if at.reflection is None or at.transmission is None or at.radiated_wave is None:
+    if at.reflection_coefficient is None or at.transmission_coefficient is None or at.radiated_wave is None:
         return {}
     position = run.position[keep] - run.position[keep].mean(axis=0)
     velocity = -1j * omega[band][:, None] * np.stack([spectrum(column) for column in position.T], axis=1)
@@ -535,8 +542,10 @@ def _transmission(model: FrequencyModel, run: Simulation, sea: IrregularSea, ram
     incident = float(np.sum(np.abs(wave) ** 2))
     if incident == 0.0:
         return {}
-    reflected = math.sqrt(float(np.sum(np.abs(at.reflection[:, 0] * wave + radiated[:, 0]) ** 2)) / incident)
-    passed = math.sqrt(float(np.sum(np.abs(at.transmission[:, 0] * wave + radiated[:, 1]) ** 2)) / incident)
+    reflected = math.sqrt(
+        float(np.sum(np.abs(at.reflection_coefficient[:, 0] * wave + radiated[:, 0]) ** 2)) / incident
+    )
+    passed = math.sqrt(float(np.sum(np.abs(at.transmission_coefficient[:, 0] * wave + radiated[:, 1]) ** 2)) / incident)
     height = 4.0 * float(np.std(run.elevation[keep]))
     return {
         "transmission_coefficient": ((), passed),

@@ -234,7 +234,7 @@ def _one_period(
     forcing = RegularForcing(
         omega=omega,
         wave_amplitude=0.5 * sea.height,
-        excitation=hydro.excitation[0, 0],
+        excitation_force=hydro.excitation_force[0, 0],
         mean_drift=drift,
         steady=model.steady,
         drift_law="pulsating" if settings.drift == "pulsating" else "ramped",
@@ -349,8 +349,8 @@ def _summary(
     if hydro.has_far_field and sea.height > 0.0 and repeats:
         far = far_field(hydro, found.first[None, None, :] / (0.5 * sea.height))
         out |= {
-            "reflection_coefficient": np.abs(far.reflection[0, 0]),
-            "transmission_coefficient": np.abs(far.transmission[0, 0]),
+            "reflection_coefficient": np.abs(far.reflection_coefficient[0, 0]),
+            "transmission_coefficient": np.abs(far.transmission_coefficient[0, 0]),
             "dissipation": far.loss[0, 0],
         }
     return out

@@ -292,6 +292,6 @@ def forcing_of(
             for part in range(at.size):
                 drift[mine, part] = np.interp(components.omega[mine], coarse, table[:, heading, part])
     return components, IrregularForcing(
-        omega=components.omega, amplitude=components.complex_amplitude, excitation=excitation, drift=drift,
+        omega=components.omega, amplitude=components.complex_amplitude, excitation_force=excitation, drift=drift,
         steady=np.zeros(at.size), drift_law=law, ramp=ramp,
     )  # fmt: skip
