@@ -10,6 +10,8 @@ from moyai.records.survey.currents import (
     block_means,
     components,
     heading_of_bearing,
+    mean_profile,
+    principal_axis,
 )
 from moyai.records.survey.tides import CONSTITUENTS, fit_tide
 
@@ -94,8 +96,32 @@ def test_phase_of_an_ellipse_is_its_largest_current():
     assert level.explained == pytest.approx(1.0)
 
 
-def test_unknown_and_unresolved_constituents_are_refused():
+@pytest.mark.parametrize("seed", range(4))
+def test_profile_and_power_law(seed):
+    random = np.random.default_rng(seed)
+    exponent, heading = random.uniform(0.08, 0.3), random.uniform(-3.0, 3.0)
+    z = np.arange(0.75, 16.0, 0.5)
+    speed = 0.6 * (z / 12.0) ** exponent
+    x = speed[:, None] * math.cos(heading) + 0.02 * random.normal(size=(z.size, 200))
+    y = speed[:, None] * math.sin(heading) + 0.02 * random.normal(size=(z.size, 200))
+    x[z > 12.0] += 3.0  # what the instrument reports above the surface
+    x[4, :150] = np.nan
+    found = mean_profile(z, x, y, top=12.0)
+    assert found.exponent == pytest.approx(exponent, abs=max(4.0 * found.exponent_error, 2e-3))
+    assert found.surface_speed == pytest.approx(0.6, rel=0.01)
+    assert math.isnan(found.x[4]) and np.isnan(found.x[z > 12.0]).all()
+
+
+def test_principal_axis_and_faults():
+    random = np.random.default_rng(0)
+    along, across = 0.5 * random.normal(size=20000), 0.1 * random.normal(size=20000)
+    w = (along + 1j * across) * np.exp(1j * 1.2)
+    axis = principal_axis(w.real, w.imag)
+    assert axis.heading == pytest.approx(1.2, abs=0.01)
+    assert (axis.major, axis.minor) == pytest.approx((0.5, 0.1), rel=0.03)
     with pytest.raises(InputError, match="unknown constituent"):
         fit_tide(np.arange(100.0), np.arange(100.0), names=["M22"])
     with pytest.raises(InputError, match="no constituent"):
         fit_tide(np.arange(100.0), np.arange(100.0))
+    with pytest.raises(InputError, match="bin"):
+        mean_profile([1.0, 2.0], np.full((2, 4), np.nan), np.full((2, 4), np.nan), top=5.0)
