@@ -21,6 +21,7 @@ from moyai.structures.curtain.limits.utilisation import (
     drowning_speed,
     height_limit,
     joint_spacing,
+    operating_limits,
     speed_limit,
     utilisation,
 )
@@ -130,10 +131,18 @@ def test_limit_of_the_waves_is_where_the_anchor_is_full() -> None:
         statics = SITE.statics(CURTAIN, speed)
         rise = WAVES.tension(limit.value, speed, statics.anchor_tension, WATER)
         assert max(utilisation(afloat(speed), REQUIRED, rise).values()) == pytest.approx(1.0, abs=1e-6)
-    heights = [
-        height_limit(CURTAIN, SITE, REQUIRED, WAVES, speed=speed, highest=3.0).value for speed in (0.05, 0.1, 2.0)
-    ]
+    table = operating_limits(CURTAIN, SITE, REQUIRED, WAVES, speeds=(0.05, 0.1, 2.0), highest=3.0)
+    heights = [row[1].value for row in table]
     assert heights[0] > heights[1] > heights[2] == 0.0
+
+
+def test_interrupted_table_keeps_its_rows() -> None:
+    def stop(what: str, done: float, total: float) -> None:
+        if done >= 1:
+            raise KeyboardInterrupt
+
+    table = operating_limits(CURTAIN, SITE, REQUIRED, WAVES, speeds=(0.05, 0.1), highest=3.0, progress=stop)
+    assert len(table) == 1
 
 
 def test_floats_drown_where_the_anchor_lines_pull_them_under() -> None:

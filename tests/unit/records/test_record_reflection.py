@@ -7,7 +7,7 @@ import pytest
 
 from moyai.core.errors import InputError
 from moyai.records.survey.blocks import _above_one
-from moyai.records.survey.irregular_reflection import separate_irregular, transmission
+from moyai.records.survey.irregular_reflection import separate_irregular, transmission, wave_series
 from moyai.sea.dispersion import wave_number
 from moyai.sea.irregular import synthesise
 from moyai.sea.spectra import jonswap
@@ -60,6 +60,21 @@ def test_noise_is_taken_off(seed):
     quiet, _, _ = flume(seed, 0.2, 3.0, (0.0, 0.3, 0.75))
     rest = separate_irregular(STEP, quiet, (0.0, 0.3, 0.75), WATER, OPTIONS, **BAND)
     assert np.nanmean(clean.noise) - np.nanmean(rest.noise) == pytest.approx(0.004**2 * 2.0 * STEP, rel=0.2)
+
+
+@pytest.mark.parametrize("seed", range(2))
+def test_series_of_incident_and_reflected_waves(seed):
+    positions = (0.0, 0.3, 0.75)
+    gauges, sea, back = flume(seed, 0.5, 4.0, positions)
+    incident, reflected = wave_series(STEP, gauges, positions, WATER, at=0.2, **BAND)
+    inside = (sea.omega >= 2 * math.pi * BAND["lowest"]) & (sea.omega <= 2 * math.pi * BAND["highest"])
+    turn = np.exp(-1j * np.outer(TIME, sea.omega[inside]))
+    k = sea.wave_number[inside]
+    truth_in = (turn @ (sea.complex_amplitude[inside] * np.exp(1j * k * 0.2))).real
+    truth_back = (turn @ (back[inside] * np.exp(-1j * k * 0.2))).real
+    inner = slice(400, -400)
+    assert np.std(incident[inner] - truth_in[inner]) < 0.01 * truth_in.std()
+    assert np.std(reflected[inner] - truth_back[inner]) < 0.02 * truth_back.std()
 
 
 def goda_suzuki(positions, amplitudes, k):

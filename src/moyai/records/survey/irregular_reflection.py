@@ -249,6 +249,41 @@ def _condition_notices(frequency: Array, condition: Array, used: NDArray[np.bool
     return (Notice("gauge-spacing", message, worst, limit, remedy="use other gauges or a narrower band"),)
 
 
+def wave_series(
+    step: float,
+    gauges: ArrayLike,
+    positions: ArrayLike,
+    water: Water,
+    *,
+    lowest: float,
+    highest: float,
+    at: float = 0.0,
+    largest_condition: float = LARGEST_CONDITION,
+) -> tuple[Array, Array]:
+    """Return the incident and the reflected wave at ``x = at`` over time [m], without other frequencies.
+
+    One transform over the whole record: the first and last few periods hold the wrap-around of waves that had not
+    reached, or had left, the other gauges.
+    """
+    x = np.asarray(positions, dtype=float)
+    values = np.asarray(gauges, dtype=float)
+    values = values - values.mean(axis=0)
+    frequency = np.fft.rfftfreq(values.shape[0], step)
+    inside = (frequency >= lowest) & (frequency <= highest) & (frequency > 0.0)
+    k = np.asarray(wave_number(2.0 * math.pi * frequency[inside], water.depth, water.gravity), dtype=float)
+    inverse, condition, _ = _design(k, x)
+    inverse = np.where((condition <= largest_condition)[:, None, None], inverse, 0.0)
+    amplitudes = np.conj(np.fft.rfft(values, axis=0))[inside]
+    waves = np.einsum("fwg,fg->wf", inverse, amplitudes)
+    shift = np.exp(1j * k * at)
+    out = []
+    for wave in (waves[0] * shift, waves[1] / shift):
+        spectrum = np.zeros(frequency.size, dtype=complex)
+        spectrum[inside] = np.conj(wave)
+        out.append(np.asarray(np.fft.irfft(spectrum, values.shape[0])))
+    return out[0], out[1]
+
+
 @dataclass(frozen=True, eq=False)
 class Transmission:
     """Transmission past a structure: root of the energy ratio, with its standard error."""

@@ -9,7 +9,7 @@ with the drag of the waves and the impact (:mod:`moyai.structures.curtain.seas.l
 from __future__ import annotations
 
 import math
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from dataclasses import astuple, dataclass, field, replace
 from typing import Protocol
 
@@ -17,6 +17,7 @@ import numpy as np
 
 from moyai.core.errors import ConvergenceError, InputError
 from moyai.core.options import checks_words
+from moyai.core.progress import Progress, silent
 from moyai.sea.breaking import breaking_limit
 from moyai.sea.current import CurrentProfile
 from moyai.sea.water import Water
@@ -391,6 +392,32 @@ def height_limit(
         return _worst(utilisation(state, required, 0.0, more))
 
     return search(worst, highest, first_only=first_only)
+
+
+def operating_limits(
+    curtain: HangingCurtain,
+    site: CurtainSite,
+    required: Requirements,
+    waves: WaveLoading,
+    *,
+    speeds: Sequence[float],
+    highest: float,
+    progress: Progress = silent,
+) -> tuple[tuple[float, Limit], ...]:
+    """Return the operating-limit table: for each surface speed [m/s] the largest significant height and what sets it.
+
+    Other arguments as :func:`height_limit`. Interrupted by the listener it returns the rows that are there.
+    """
+    table: list[tuple[float, Limit]] = []
+    try:
+        for count, speed in enumerate(speeds):
+            progress("operating limits", count, len(speeds))
+            table.append((speed, height_limit(curtain, site, required, waves, speed=speed, highest=highest)))
+        progress("operating limits", len(speeds), len(speeds))
+    except KeyboardInterrupt:
+        # what is there is handed back; the caller sees that rows are missing
+        pass
+    return tuple(table)
 
 
 #: Components whose load grows with the distance of the anchors; the others are the same at any distance
