@@ -26,7 +26,7 @@ from moyai.structures.cage.flexible.grid_mooring import Buoy, GridMooring
 from moyai.structures.cage.flexible.model import CageMesh, FlexibleCage
 from moyai.structures.cage.flexible.problem import FlexibleSettings
 from moyai.structures.cage.flexible.time import run_cage
-from moyai.structures.cage.rigid.waves import regular_wave
+from moyai.structures.cage.rigid.waves import wave_of
 from moyai.tables.lines import line_type
 
 WATER = Water(60.0, 1025.0, 9.81)
@@ -60,7 +60,7 @@ def cpu(action: Callable[[], object], repeat: int = 3) -> float:
 def main() -> None:
     """Run all."""
     current = uniform(0.5, 0.0)
-    wave = regular_wave(2.0, 8.0, 0.0, WATER, 0.5, 1)
+    wave = wave_of("linear", 2.0, 8.0, 0.0, WATER, 0.5, 1)
     settings = FlexibleSettings(("time",), ramp_periods=2.0, rows_per_period=40)
     wave = replace(wave, duration=SIMULATED - 16.0)
     for number, (around, down, bottom) in enumerate(((24, 4, 3), (32, 8, 4), (48, 12, 6), (64, 20, 8), (96, 36, 12))):

@@ -21,7 +21,7 @@ from moyai.structures.cage.rigid.model import RigidCageProblem, RigidCageSetting
 from moyai.structures.cage.rigid.pack import pack
 from moyai.structures.cage.rigid.statics import equilibrium_with_lines
 from moyai.structures.cage.rigid.time import march, march_fixed
-from moyai.structures.cage.rigid.waves import regular_wave, waves_of
+from moyai.structures.cage.rigid.waves import wave_of, waves_of
 
 PERIOD, HEIGHT, STEP = 1.1, 0.03, 5e-4
 
@@ -38,7 +38,7 @@ def regular(stiffness: float, tolerance: float) -> dict[str, object]:
     cage = model_cage()
     lines = taut_lines(cage, stiffness=stiffness)
     start = np.concatenate([equilibrium_with_lines(cage, lines, WATER, VISCOSITY).place, np.zeros(3)])
-    wave = regular_wave(HEIGHT, PERIOD, 0.0, WATER, 0.0, 1000)
+    wave = wave_of("linear", HEIGHT, PERIOD, 0.0, WATER, 0.0, 1000)
     packed = pack(cage, lines, WATER, VISCOSITY, waves=wave.components, ramp=5.0 * PERIOD)
     options = {"spacing": PERIOD / 50.0, "size": 0.2, "period": PERIOD, "tolerance": tolerance}
     march(packed, start, duration=2.0 * PERIOD, **options)
@@ -103,7 +103,7 @@ def patches() -> dict[str, object]:
         cage = model_cage(patches=count)
         lines = taut_lines(cage)
         start = np.concatenate([equilibrium_with_lines(cage, lines, WATER, VISCOSITY).place, np.zeros(3)])
-        wave = regular_wave(HEIGHT, PERIOD, 0.0, WATER, 0.0, 24)
+        wave = wave_of("linear", HEIGHT, PERIOD, 0.0, WATER, 0.0, 24)
         packed = pack(cage, lines, WATER, VISCOSITY, waves=wave.components, ramp=5.0 * PERIOD)
         run = march(packed, start, duration=26.4, spacing=0.022, size=0.2, period=PERIOD, tolerance=1e-6)
         found[str(count)] = [float(f"{value:.4g}") for value in numbers(run.state, run.tension_peak)]

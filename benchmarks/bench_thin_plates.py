@@ -89,7 +89,7 @@ def main() -> int:
     parser.add_argument("--peer-python", default=os.environ.get("MOYAI_PEER_PYTHON"))
     parser.add_argument("--repeat", type=int, default=7)
     options = parser.parse_args()
-    reference = solve_vertical_barrier(1.0, WATER, OMEGA, modes=16000, polynomials=20)
+    reference = solve_vertical_barrier(1.0, WATER, OMEGA, evanescent_modes=16000, polynomials=20)
     fine = solved(KEELS, 1e-8)
     promised = False
     own = 0.0
