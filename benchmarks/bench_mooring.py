@@ -24,8 +24,9 @@ import numpy as np
 from moyai.mooring import kernels, segments
 from moyai.mooring.catenary import solve_catenary
 from moyai.mooring.lines import Clump, Line, LineType, Segment
+from moyai.mooring.space_kernel import space_line_force
 from moyai.mooring.system import LineSystem
-from moyai.mooring.table import compile_lines
+from moyai.mooring.table import CompiledLines, compile_lines
 
 AXIAL, WEIGHT, MASS, VOLUME_DIAMETER = 2.135e8, (49.8 - 1025.0 * np.pi / 4.0 * 0.09**2) * 9.81, 49.8, 0.09
 HYDROSTATIC_AREA, DISPLACEMENT, CENTRE, METACENTRE = 210.0, 630.0, (0.0, 0.0, -0.5), (0.0, 0.0, 1.5)
@@ -203,6 +204,36 @@ def bench_time_domain(repeat: int) -> dict:
     return record
 
 
+def bench_lines_in_space(repeat: int) -> dict:
+    """Cost of one line at one step of a row of units, exactly and from a table: their ratio in one run."""
+    lines = tuple(breakwater().lines)
+    system = LineSystem(lines, breakwater().water_depth)
+    steps = np.arange(20_000) * 0.05
+    positions = np.zeros((len(steps), 6))
+    for column, (size, omega) in enumerate(((0.6, 1.0), (0.3, 0.7), (0.5, 1.1), (0.03, 0.9), (0.05, 1.0), (0.02, 0.8))):
+        positions[:, column] = size * np.sin(omega * steps)
+    apart = system.fairleads(positions) - np.array([line.anchor for line in lines])
+    over = np.stack([np.hypot(apart[..., 0], apart[..., 1]), apart[..., 2]], axis=-1)
+    reach = np.stack([over.min(axis=0), over.max(axis=0)], axis=-1)
+    packed = {"exact": compile_lines(system), "table": compile_lines(system, tolerance=1e-4, reach=reach)}
+    body, out, found = np.zeros(len(lines), dtype=np.int64), {}, {}
+    for name, each in packed.items():
+        tension = np.zeros((len(steps), len(lines)))
+
+        def go(each: CompiledLines = each, tension: np.ndarray = tension) -> None:
+            last, force = np.zeros(len(lines)), np.zeros(6)
+            for position, row in zip(positions, tension, strict=True):
+                space_line_force(position, body, *each.arguments, last, force, row)
+
+        out[f"{name}_ns"] = 1e9 * cpu(go, repeat) / len(steps) / len(lines)
+        found[name] = tension
+    worst = float(np.abs(found["table"] / found["exact"] - 1.0).max())
+    return {
+        "bench": "lines in space, per line, a call from Python each step", **out,
+        "ratio": out["exact_ns"] / out["table_ns"], "largest_error_of_tension": worst,
+    }  # fmt: skip
+
+
 def main() -> int:
     """Run all and judge the promised ratios."""
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
@@ -223,6 +254,7 @@ def main() -> int:
         print(json.dumps(record))
     print(json.dumps(bench_system(python, arguments.repeat)))
     print(json.dumps(bench_segments(arguments.repeat)))
+    print(json.dumps(bench_lines_in_space(arguments.repeat)))
     print(json.dumps(bench_time_domain(arguments.repeat)))
     return 1 if failed else 0
 
