@@ -64,9 +64,11 @@ def _solved_by_capytaine(displacements: dict[str, Array], omega: float) -> tuple
     solver = capytaine.BEMSolver(green_function=green_function(), method="direct")
     given = {"body": body, "omega": omega, "water_depth": WATER.depth, "rho": WATER.density, "g": WATER.gravity}
     names = list(displacements)
-    radiation = [solver.solve(capytaine.RadiationProblem(radiating_dof=name, **given)) for name in names]
+    # without its warning of irregular frequencies, whose search among single panels takes longer than the solution
+    once: dict[str, Any] = {"_check_wavelength": False}
+    radiation = [solver.solve(capytaine.RadiationProblem(radiating_dof=name, **given), **once) for name in names]
     wave = capytaine.DiffractionProblem(wave_direction=HEAD, **given)
-    scattered = solver.solve(wave)
+    scattered = solver.solve(wave, **once)
     incident = capytaine.bem.airy_waves.froude_krylov_force(wave)
     return (
         np.array([[item.added_masses[name] for item in radiation] for name in names]),
