@@ -96,7 +96,7 @@ SHORTER: dict[str, dict[str, Any]] = {
         "settings": {"duration": "8 s", "output_step": "25 ms", "ramp": "2 s", "skip": "4 s"},
         **{f"structure.lines.{side} {hand}.segments": 8 for side in ("seaward", "lee") for hand in ("left", "right")},
     },
-    "network/buoy": {"settings.realisations": 3},
+    "network/buoy": {"waves[0].duration": "1 min", "settings.realisations": 3},
     "network/net_in_current": {"settings.duration": "20 s"},
     "network/skirt": {
         **{f"structure.sheets.skirt.{name}": count for name, count in {"rows": 4, "columns": 7}.items()},
