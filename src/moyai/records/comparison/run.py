@@ -147,13 +147,14 @@ def compare_result(
             classes = record[state][inside], tuple(edges) or _edges(record[state])
         label = f"{name.strip('/').replace('/', ' ')} against {pairing.column}"
         groups[label.replace("/", " ")] = _group(found, unit, axis, label, classes, record, state)
-    tree = xr.DataTree.from_dict(VOCABULARY.close({f"/{name}": dataset for name, dataset in groups.items()}))
+    described, undeclared = VOCABULARY.close({f"/{name}": dataset for name, dataset in groups.items()})
+    tree = xr.DataTree.from_dict(described)
     title = str(result.tree.attrs.get("title", "")) or "result"
     tree.attrs = {"title": f"{title} against {path.name}", "structure": "comparison", "case_text": "", "case_hash": ""}
     message = f"{counted(len(groups), 'variable')} compared with {path.name}"
     case_hash = str(result.tree.attrs.get("case_hash", ""))
     provenance = make_provenance(title=tree.attrs["title"], record=path.name, compared_case=case_hash)
-    return Result(tree, "converged", message, (), tuple(notices), provenance)
+    return Result(tree, "converged", message, (), (*notices, *undeclared), provenance)
 
 
 def _read(path: Path, coordinate: str, decimal: str, wanted: Set[str]) -> tuple[Record, str]:

@@ -205,7 +205,8 @@ def _assemble(survey: Survey, found: Sequence[BlockResult], dated: bool) -> tupl
     whole = _whole(survey, found)
     if whole is not None:
         groups["whole"] = whole
-    tree = xr.DataTree.from_dict(VOCABULARY.close({f"/{name}": dataset for name, dataset in groups.items()}))
+    described, undeclared = VOCABULARY.close({f"/{name}": dataset for name, dataset in groups.items()})
+    tree = xr.DataTree.from_dict(described)
     tree.attrs = {
         "title": survey.title,
         "structure": "records",
@@ -215,7 +216,7 @@ def _assemble(survey: Survey, found: Sequence[BlockResult], dated: bool) -> tupl
         "dated": int(dated),
         "x_axis_bearing_deg": math.degrees(survey.x_axis_bearing),
     }
-    return tree, notices
+    return tree, [*notices, *undeclared]
 
 
 def _symbols(survey: Survey) -> dict[str, str]:
