@@ -65,6 +65,7 @@ FAULTS = {
     "analysis twice": ("[statics, impact, waves", "[statics, impact, statics", "analyses", "is given twice"),
     "wrong unit": ("weight: 180 N/m", "weight: 180 N", "structure.toe.weight", "force per length"),
     "both ends of the toe's weight": ("weight: 180 N/m", "weight: 180 N/m, chain_mass: 20 kg/m", "structure.toe.chain_mass", "exclude each other"),
+    "toe chain that floats": ("weight: 180 N/m", "chain_mass: 20 kg/m, chain_density: 1000 kg/m3", "structure.toe.chain_density", "more than 1025 kg/m3"),
     "range of the drag": ("range: [0.8, 1.4]", "range: [1.2, 1.4]", "structure.drag.range[0]", "at most 1"),
     "skirt that floats": ("submerged_weight: 3 N/m2", "submerged_weight: -60 N/m2", "structure.toe.weight", "the skirt floats"),
     "no weight of the skirt": ("submerged_weight: 3 N/m2, ", "", "structure.skirt", "the weight of the skirt is missing"),
@@ -202,6 +203,12 @@ def test_units_degrees_and_catalogues_become_numbers(tmp_path):
     curtain = build(load_case(written(tmp_path, text))).curtain
     assert curtain.skirt.toe_load == pytest.approx(20.0 * 9.81 * (1.0 - 1025.0 / 7850.0))
     assert curtain.toe_chain == 20.0
+    denser = build(
+        load_case(
+            written(tmp_path, text.replace("chain_mass: 20 kg/m", "chain_mass: 20 kg/m, chain_density: 7000 kg/m3"))
+        )
+    )
+    assert denser.curtain.skirt.toe_load == pytest.approx(20.0 * 9.81 * (1.0 - 1025.0 / 7000.0))
     assert curtain.upper_stiffness == pytest.approx(2e11 * math.pi / 4 * 0.5e-3**2)
     assert curtain.lower_stiffness > 0.0 and math.isfinite(curtain.strengths.lower_cable.capacity)
     assert curtain.skirt.stiffness == pytest.approx(0.5 * (2e8 + 1e9) * 1e-4)
