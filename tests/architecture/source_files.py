@@ -36,6 +36,7 @@ class Findings:
     mutable_dataclasses: tuple[str, ...]
     mutable_models: tuple[str, ...]
     bare_excepts: tuple[str, ...]
+    empty_conditions: tuple[str, ...]
     classes: tuple[str, ...]
     lists_of_fields: tuple[str, ...]
     texts: tuple[tuple[int, str], ...]
@@ -131,6 +132,7 @@ def findings_of_text(text: str, parts: tuple[str, ...]) -> Findings:
     dataclasses: list[str] = []
     models: list[str] = []
     bare: list[str] = []
+    empty: list[str] = []
     classes: list[str] = []
     lists: list[str] = []
     for node in nodes:
@@ -150,6 +152,8 @@ def findings_of_text(text: str, parts: tuple[str, ...]) -> Findings:
                 models.append(f"line {node.lineno}: {node.name}")
         elif isinstance(node, ast.ExceptHandler) and node.type is None:
             bare.append(f"line {node.lineno}")
+        elif isinstance(node, ast.If) and all(isinstance(statement, ast.Pass) for statement in node.body):
+            empty.append(f"line {node.lineno}: if {ast.unparse(node.test)}: pass")
     prints = () if parts[0] in TALKERS else tuple(_calls(nodes, {"print", "breakpoint", "set_trace"}))
     imports = tuple(_imports(nodes, ["moyai", *parts[:-1]]))
     texts = tuple(
@@ -166,6 +170,7 @@ def findings_of_text(text: str, parts: tuple[str, ...]) -> Findings:
         tuple(dataclasses),
         tuple(models),
         tuple(bare),
+        tuple(empty),
         tuple(classes),
         tuple(lists),
         texts,
