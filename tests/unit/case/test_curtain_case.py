@@ -99,7 +99,7 @@ def written(tmp_path: Path, text: str) -> Path:
 
 
 @pytest.mark.parametrize("name", FAULTS)
-def test_fault_is_told_with_its_place_and_reason(tmp_path, name):
+def test_fault_is_reported_with_its_place_and_reason(tmp_path, name):
     old, new, path, said = FAULTS[name]
     assert BASE.count(old) == 1, old
     text = BASE.replace(old, new)
@@ -110,11 +110,11 @@ def test_fault_is_told_with_its_place_and_reason(tmp_path, name):
     assert any(said in f"{fault.message} {fault.allowed} {fault.remedy}" for fault in found), [str(f) for f in found]
     key = path.split(".")[-1].split("[")[0]
     line = text.splitlines()[found[0].line - 1] if found[0].line else ""
-    # a missing key is told at its block
+    # a missing key is reported at its block
     assert key in line or key == "float_mass" or "is missing" in found[0].message, (line, str(found[0]))
 
 
-def test_all_faults_are_told_at_once(tmp_path):
+def test_all_faults_are_reported_at_once(tmp_path):
     text = (
         BASE.replace("length: 13.5 m", "length: 11 m")
         .replace("{length: 4 m, sub", "{length: 9 m, sub")
@@ -258,7 +258,7 @@ def test_template_and_examples_are_sound(tmp_path):
         assert load_case(file).kind == "curtain"
 
 
-def test_figures_that_change_nothing_are_told(tmp_path):
+def test_figures_that_change_nothing_are_reported(tmp_path):
     text = BASE.replace("range: [0.8, 1.4]}", "range: [0.8, 1.4], blockage: [0.2, 0.3, 0.5]}")
     text = text.replace(
         "upper: {axial_stiffness: 400 kN, breaking_load: 90 kN}", "upper: {catalogue: polyester, diameter: 20 mm}"

@@ -105,7 +105,7 @@ def compare_result(
     Returns
     -------
     Result
-        One group a pairing with ``coordinate``, ``model``, ``observed``, and the figures of agreement.
+        One group a pairing with ``coordinate``, ``model``, ``observed``, and the measures of agreement.
 
     Raises
     ------
@@ -358,7 +358,7 @@ VOCABULARY = Vocabulary.of(
         "by_state": (NO_UNIT, "agreement by class of the sea state"),
         "state_count": ("1", "pairs of the class"),
     },
-    labels={"figure": "figure of the agreement", "state": "class of the sea state"},
+    labels={"figure": "measure of the agreement", "state": "class of the sea state"},
 )
 FIGURES = (
     ("count", "pairs"),
@@ -374,10 +374,10 @@ FIGURES = (
 )
 
 
-def _row(figures: ModelAgreement | None) -> list[float]:
-    if figures is None:
+def _row(agreement: ModelAgreement | None) -> list[float]:
+    if agreement is None:
         return [math.nan] * len(FIGURES)
-    return [float(getattr(figures, key)) for key, _ in FIGURES]
+    return [float(getattr(agreement, key)) for key, _ in FIGURES]
 
 
 def _group(
