@@ -40,6 +40,8 @@ class Findings:
     classes: tuple[str, ...]
     lists_of_fields: tuple[str, ...]
     texts: tuple[tuple[int, str], ...]
+    #: Name and lines of every function, its description not counted.
+    functions: tuple[tuple[str, int], ...]
 
 
 def called_name(node: ast.expr) -> str:
@@ -121,13 +123,26 @@ def _imports(nodes: list[ast.AST], package: list[str]) -> Iterator[tuple[str, in
             yield str(node.args[0].value), node.lineno
 
 
+def _functions(node: ast.AST) -> Iterator[tuple[str, int]]:
+    """Give the functions of a module with their lines; the name of an inner one begins with that of the outer one."""
+    for child in ast.iter_child_nodes(node):
+        own = getattr(child, "name", "") if isinstance(child, ast.FunctionDef | ast.ClassDef) else ""
+        if isinstance(child, ast.FunctionDef):
+            first = child.body[0]
+            described = ast.get_docstring(child) is not None
+            description = (first.end_lineno or 0) - first.lineno + 1 if described else 0
+            yield own, (child.end_lineno or 0) - child.lineno + 1 - description
+        yield from ((f"{own}.{name}" if own else name, lines) for name, lines in _functions(child))
+
+
 def findings_of_text(text: str, parts: tuple[str, ...]) -> Findings:
     """Examine one module; ``parts`` is its path below the package.
 
     A dataclass whose name starts with an underscore, a private record that a reader fills while it reads, may change.
     Pydantic models inherit ``frozen`` from the base of the schema; that base must say so.
     """
-    nodes = list(ast.walk(ast.parse(text)))
+    tree = ast.parse(text)
+    nodes = list(ast.walk(tree))
     kernels: list[str] = []
     dataclasses: list[str] = []
     models: list[str] = []
@@ -174,6 +189,7 @@ def findings_of_text(text: str, parts: tuple[str, ...]) -> Findings:
         tuple(classes),
         tuple(lists),
         texts,
+        tuple(_functions(tree)),
     )
 
 
