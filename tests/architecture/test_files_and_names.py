@@ -1,4 +1,7 @@
-"""No file or function is longer than a reader holds in mind; no two classes share a name; fields are described where they stand."""
+"""No file or function is longer than a reader holds in mind; no two classes share a name.
+
+Fields are described where they stand.
+"""
 
 from collections import defaultdict
 
