@@ -3,7 +3,7 @@
     python benchmarks/bench_cage.py
 
 Prints JSON lines. A full-scale cage (50 m, two rings, grid of four anchor lines) in a current of 0.5 m/s and waves of
-2 m and 8 s; one core, warm, medians of three; compilation told apart.
+2 m and 8 s; one core, warm, medians of three; compilation distinguished.
 """
 
 from __future__ import annotations

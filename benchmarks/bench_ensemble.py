@@ -3,7 +3,7 @@
     OMP_NUM_THREADS=1 python benchmarks/bench_ensemble.py
 
 The rope of ``flexible_decks.snap`` that goes slack and snaps, each member with a surge of its own, and one line of a
-thousand bars beside it: what the vector code takes for a bar and a step when its loops are long.
+thousand bars next to it: what the vector code takes for a bar and a step when its loops are long.
 """
 
 from __future__ import annotations

@@ -80,7 +80,7 @@ def main() -> None:
     study = study_of(folder, 40, 25)
     _, cpu = timed(study, trivial, 1)
     each = cpu / len(study.cases)
-    print(json.dumps({"what": "processor time a case beside the case itself, one process", "milliseconds": 1e3 * each,
+    print(json.dumps({"what": "processor time a case next to the case itself, one process", "milliseconds": 1e3 * each,
                       "share_of_a_case_of_one_second": each}))  # fmt: skip
     wall, cpu = timed(study, trivial, 2)
     print(json.dumps({"what": "trivial cases through two processes", "cases_a_second": len(study.cases) / wall,

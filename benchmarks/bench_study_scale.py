@@ -6,7 +6,7 @@
 The scheduler (``dask scheduler`` as installed) and the simulated workers (:mod:`simulated_workers`) are processes of
 their own; the study runs here as on any cluster. Prints JSON lines: processor time of scheduler and of client a case,
 what the heartbeats of idle workers cost, and from which length of the cases on the centre keeps all workers busy. With
-``--seconds`` cases last so long, and the efficiency on the wall clock is told too: seconds of all cases over those of
+``--seconds`` cases last so long, and so is the efficiency on the wall clock: seconds of all cases over those of
 all workers.
 """
 
@@ -136,7 +136,7 @@ def at_work(
     line = {
         "what": "cases through the scheduler", "workers": count, "seconds_a_case": seconds, "cases": cases,
         "wall_s": wall, "cases_a_second": cases / wall, "share_of_a_core_for_a_busy_thread": share,
-        # The heartbeats go on beside; they are told on their own
+        # The heartbeats go on meanwhile; they are reported on their own
         "scheduler_ms_a_case": 1e3 * max(theirs - idle * wall, 0.0) / cases, "client_ms_a_case": 1e3 * ours / cases,
         "memory_of_the_scheduler_gb": centre.memory_info().rss / 1e9,
     }  # fmt: skip

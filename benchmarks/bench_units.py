@@ -53,7 +53,7 @@ def case(frequencies: int, *changes: tuple[str, str]) -> Any:
     return build(case_of(parse_yaml(text, "case.yaml"), Path("case.yaml")))
 
 
-def told(name: str, value: float, limit: float, **more: Any) -> None:
+def reported(name: str, value: float, limit: float, **more: Any) -> None:
     """Print a figure with its limit."""
     shown = {"what": name, "value": float(f"{value:.4g}"), "limit": limit, "ratio": float(f"{value / limit:.3g}")}
     print(json.dumps({**shown, **more}), flush=True)
@@ -78,7 +78,7 @@ def main() -> None:
     hydro = solve_row(panels, at.water, at.centres, omega, headings, store=store)
     took = (time.perf_counter() - begin) * WHOLE / len(omega)
     if not at_hand:
-        told("coefficients of 40 frequencies [s]", took, COEFFICIENTS, panels=panels.mesh.count, solved=len(omega))
+        reported("coefficients of 40 frequencies [s]", took, COEFFICIENTS, panels=panels.mesh.count, solved=len(omega))
     wind, current = steady_load(at, environment)
     steady = wind + current
     each, answer = [], None
@@ -88,8 +88,8 @@ def main() -> None:
         answer = irregular_answer(at, hydro, state, steady, settings)
         each.append(time.process_time() - before)
     assert answer is not None and answer.converged
-    told("first sea state [s]", each[0], SEA_STATE)
-    told("sea state, median of the last ten [s]", float(np.median(each[-10:])), SEA_STATE, states=len(each))
+    reported("first sea state [s]", each[0], SEA_STATE)
+    reported("sea state, median of the last ten [s]", float(np.median(each[-10:])), SEA_STATE, states=len(each))
     water = water_in_time(at, hydro, steady, settings, store=store, progress=lambda *_: None)[0]
     before = time.process_time()
     run = irregular_run(water, sea, 0, answer)
@@ -101,9 +101,9 @@ def main() -> None:
     for line, one in enumerate(moving):
         rerun(at, one, carried, events_of(carried, line)[0][0])
     lines = time.process_time() - before
-    told("real time over time, lines at rest at every instant", simulated / spent, REAL_TIME, at_least=True)
+    reported("real time over time, lines at rest at every instant", simulated / spent, REAL_TIME, at_least=True)
     window = (LEAD + AROUND) * carried.period
-    told("real time over time, all 40 lines in motion beside it", 1.0 / (spent / simulated + lines / window), REAL_TIME,
+    reported("real time over time, with 40 lines in motion", 1.0 / (spent / simulated + lines / window), REAL_TIME,
          at_least=True)  # fmt: skip
 
 

@@ -22,7 +22,7 @@ copyright = "The moyai authors, Apache-2.0"
 version = release = importlib.metadata.version("moyai")
 
 sys.path.insert(0, str(Path(__file__).parent))
-from mathml import font_folder  # noqa: E402 - beside this file
+from mathml import font_folder  # noqa: E402 - next to this file
 
 logging.getLogger("fontTools").setLevel(
     logging.WARNING

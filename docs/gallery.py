@@ -42,7 +42,7 @@ STYLE = """
 """
 
 
-#: Records that an example makes: what `moyai measure` is told, by file.
+#: Records that an example makes: what `moyai measure` is given, by file.
 RECORDS = {"nets/nets.yaml": "nets", "curtain/flume/snaps.yaml": "snaps"}
 
 
@@ -154,10 +154,10 @@ def first_things(result: Any) -> tuple[str, str, list[tuple[str, str]]]:
     if not picture:
         picture = next((draw_figure(one).decode("utf-8") for one in blocks if isinstance(one, Figure)), "")
     numbers = next((one.items for one in blocks if isinstance(one, KeyFigures)), ())
-    told = [
+    shown = [
         (one.label, one.text) for one in numbers if re.search(r"\d", one.text)
     ]  # not the line on what is not judged
-    return document.title, picture, told[:HEADLINES]
+    return document.title, picture, shown[:HEADLINES]
 
 
 class Gallery(SphinxDirective):

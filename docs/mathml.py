@@ -20,12 +20,12 @@ _GAP = r'<mrow><mi>\1</mi><mspace width="0.17em"/></mrow>'
 
 
 def mathml(text: str, display: str = "inline") -> str:
-    """Return a formula of TeX as MathML, with a thin gap behind the names of functions and none beside bars."""
+    """Return a formula of TeX as MathML, with a thin gap behind the names of functions and none next to bars."""
     return _SIGN.sub(r'<mo\1 lspace="0" rspace="0">', _FUNCTION.sub(_GAP, convert(text, display=display)))
 
 
 def font_folder() -> str:
-    """Return the folder of the letters of formulas (STIX Two Math), copied beside the pages."""
+    """Return the folder of the letters of formulas (STIX Two Math), copied next to the pages."""
     found = find_spec("ziamath")
     if found is None or found.origin is None:
         raise ImportError("the pages need ziamath, whose letters of formulas they carry: pip install '.[docs]'")

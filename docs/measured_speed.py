@@ -22,7 +22,7 @@ _ROW, _LEFT, _WIDTH = 17, 130, 520
 
 
 def records() -> list[dict[str, Any]]:
-    """Return the rows that stand beside the page."""
+    """Return the rows that stand next to the page."""
     return list(json.loads(RECORDS.read_text(encoding="utf-8")))
 
 

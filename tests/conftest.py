@@ -65,8 +65,8 @@ def pytest_collection_finish() -> None:
 @pytest.fixture(scope="session")
 def shared_data() -> Path:
     """Folder of measured records and files of other programs; tests that need it carry the marker ``shared_data``."""
-    beside = Path(__file__).resolve().parents[2] / "shared" / "data"
-    folder = Path(os.environ.get("MOYAI_SHARED_DATA", beside))
+    sibling = Path(__file__).resolve().parents[2] / "shared" / "data"
+    folder = Path(os.environ.get("MOYAI_SHARED_DATA", sibling))
     if not (folder / "README.md").is_file():
         pytest.skip(f"measured records are not at {folder}: set MOYAI_SHARED_DATA to their folder")
     return folder

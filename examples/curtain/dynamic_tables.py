@@ -1,4 +1,4 @@
-"""The whole span beside the models of the impact: the tables of the validation page.
+"""The whole span next to the models of the impact: the tables of the validation page.
 
     python examples/curtain/dynamic_tables.py cable     # dynamic cable over model A, and the energy that it keeps
     python examples/curtain/dynamic_tables.py span      # cables and skirt on several meshes

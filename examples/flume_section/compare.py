@@ -4,7 +4,7 @@
     python compare.py --records FOLDER 2082 3071_1 named runs, period by their two middle digits
     python compare.py --sensitivity                what the inputs that are least known would change
 
-Records: folder ``flume_moored_section`` of the measured data (``MOYAI_SHARED_DATA`` or ../shared/data beside the
+Records: folder ``flume_moored_section`` of the measured data (``MOYAI_SHARED_DATA`` or ../shared/data next to the
 repository). Heights of the incident waves are taken from each record; nothing else of a record enters the computation.
 """
 
@@ -59,7 +59,7 @@ RAMP_PERIODS = 5.0  # the source's linear ramp of the wavemaker
 
 @dataclass(frozen=True)
 class Row:
-    """One measured figure beside its computed one.
+    """One measured figure next to its computed one.
 
     Parameters
     ----------

@@ -69,7 +69,7 @@ def cage(folder: Path, rng: np.random.Generator) -> None:
 
 
 def main(folder: Path = HERE / "records") -> None:
-    """Write all records, by default beside the file that describes them."""
+    """Write all records, by default next to the file that describes them."""
     folder.mkdir(exist_ok=True)
     rng = np.random.default_rng(4)
     rig = Rig()

@@ -1,7 +1,7 @@
 """A synthetic field campaign, generated from stated laws and worked off to every statement of the field paper.
 
 ``python examples/records/campaign.py [folder] [every]``: three campaigns of 6, 5 and 6 days at 10 Hz (with ``every``
-above 1 only every so many blocks), each with its page, then the planted constants beside what was found.
+above 1 only every so many blocks), each with its page, then the planted constants next to what was found.
 """
 
 import math
@@ -163,7 +163,7 @@ def statements(data, pairs, laws):
     return rows, fitted
 
 
-def work_off(folder, every=1, seed=1, laws=None, report=True):
+def process(folder, every=1, seed=1, laws=None, report=True):
     """Generate and process the campaigns; return the figures of blocks and of waves, the results and the laws."""
     laws = laws or CampaignLaws()
     results, pairs = [], []
@@ -180,7 +180,7 @@ def work_off(folder, every=1, seed=1, laws=None, report=True):
 def main():
     folder = Path(sys.argv[1]) if len(sys.argv) > 1 else Path("out") / "campaign"
     every = int(sys.argv[2]) if len(sys.argv) > 2 else 1
-    data, pairs, results, laws = work_off(folder, every)
+    data, pairs, results, laws = process(folder, every)
     for result, storm in zip(results, laws.storms, strict=True):
         peak = float(np.nanmax(result.tree["waves"]["third_height"].values))
         print(f"{storm.name}: {result.message}; largest H1/3 {peak:.2f} m (law {storm.peak_height:.2f} m)")

@@ -1,6 +1,6 @@
 """The measured section in a flume: waves as series, forces, motions and spring tensions of the twelve runs.
 
-``python examples/records/moored_section.py``. Incident and reflected waves by harmonics over whole periods and, beside
+``python examples/records/moored_section.py``. Incident and reflected waves by harmonics over whole periods and, next to
 them, as time series; tensions wave by wave.
 """
 

@@ -1,7 +1,7 @@
 """Raw displacements of a Waverider against the buoy's own half-hourly results.
 
 ``python examples/records/waverider.py`` prints, for four half hours of 1 July 2005, heights and periods by zero
-crossing (.hiw) and the spectral figures and directions (.his) beside ours.
+crossing (.hiw) and the spectral figures and directions (.his) next to ours.
 """
 
 import csv

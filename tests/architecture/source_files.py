@@ -36,9 +36,12 @@ class Findings:
     mutable_dataclasses: tuple[str, ...]
     mutable_models: tuple[str, ...]
     bare_excepts: tuple[str, ...]
+    empty_conditions: tuple[str, ...]
     classes: tuple[str, ...]
     lists_of_fields: tuple[str, ...]
     texts: tuple[tuple[int, str], ...]
+    #: Name and lines of every function, its description not counted.
+    functions: tuple[tuple[str, int], ...]
 
 
 def called_name(node: ast.expr) -> str:
@@ -120,17 +123,31 @@ def _imports(nodes: list[ast.AST], package: list[str]) -> Iterator[tuple[str, in
             yield str(node.args[0].value), node.lineno
 
 
+def _functions(node: ast.AST) -> Iterator[tuple[str, int]]:
+    """Give the functions of a module with their lines; the name of an inner one begins with that of the outer one."""
+    for child in ast.iter_child_nodes(node):
+        own = getattr(child, "name", "") if isinstance(child, ast.FunctionDef | ast.ClassDef) else ""
+        if isinstance(child, ast.FunctionDef):
+            first = child.body[0]
+            described = ast.get_docstring(child) is not None
+            description = (first.end_lineno or 0) - first.lineno + 1 if described else 0
+            yield own, (child.end_lineno or 0) - child.lineno + 1 - description
+        yield from ((f"{own}.{name}" if own else name, lines) for name, lines in _functions(child))
+
+
 def findings_of_text(text: str, parts: tuple[str, ...]) -> Findings:
     """Examine one module; ``parts`` is its path below the package.
 
     A dataclass whose name starts with an underscore, a private record that a reader fills while it reads, may change.
     Pydantic models inherit ``frozen`` from the base of the schema; that base must say so.
     """
-    nodes = list(ast.walk(ast.parse(text)))
+    tree = ast.parse(text)
+    nodes = list(ast.walk(tree))
     kernels: list[str] = []
     dataclasses: list[str] = []
     models: list[str] = []
     bare: list[str] = []
+    empty: list[str] = []
     classes: list[str] = []
     lists: list[str] = []
     for node in nodes:
@@ -150,6 +167,8 @@ def findings_of_text(text: str, parts: tuple[str, ...]) -> Findings:
                 models.append(f"line {node.lineno}: {node.name}")
         elif isinstance(node, ast.ExceptHandler) and node.type is None:
             bare.append(f"line {node.lineno}")
+        elif isinstance(node, ast.If) and all(isinstance(statement, ast.Pass) for statement in node.body):
+            empty.append(f"line {node.lineno}: if {ast.unparse(node.test)}: pass")
     prints = () if parts[0] in TALKERS else tuple(_calls(nodes, {"print", "breakpoint", "set_trace"}))
     imports = tuple(_imports(nodes, ["moyai", *parts[:-1]]))
     texts = tuple(
@@ -166,9 +185,11 @@ def findings_of_text(text: str, parts: tuple[str, ...]) -> Findings:
         tuple(dataclasses),
         tuple(models),
         tuple(bare),
+        tuple(empty),
         tuple(classes),
         tuple(lists),
         texts,
+        tuple(_functions(tree)),
     )
 
 

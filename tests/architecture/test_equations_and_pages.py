@@ -106,13 +106,16 @@ def words_not_used(glossary):
     words = [word.strip() for row in rows if row.startswith("| ") for word in row.split("|")[1].split(",")]
     words = [word for word in words if "(" not in word and word != "not"]
     forms = [re.sub(r"^(\w+?)(\w?)( .*)?$", r"\1\2(?:s|ed|ing|\2ed|\2ing)?\3", word) for word in words]
+    # "work a survey off" is "work off" with words between
+    forms = [re.sub(" off$", r"(?: [\\w-]+){0,3} off", form) for form in forms]
     return re.compile(rf"\b(?:{'|'.join(forms)})\b", re.IGNORECASE)
 
 
 def test_pages_use_the_words_of_the_glossary():
     glossary = DOCS / "glossary.md"
     replaced = words_not_used(glossary)
-    assert replaced.search("two rooms") and replaced.search("worked off") and replaced.search("The bed rubbed.")
+    for text in ("two rooms", "worked off", "Works a survey off", "The bed rubbed."):
+        assert replaced.search(text), text
     assert not replaced.search("a roomy housing")
     found = [
         f"{page.relative_to(ROOT)}:{number}: {match[0]}"

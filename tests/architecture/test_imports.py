@@ -28,11 +28,11 @@ LEVELS = {
     "app": 11,
 }
 PLOTTING = {"matplotlib", "plotly", "typst", "seaborn", "bokeh"}
-# The facade of the package (moyai/__init__.py) hands out the calls of every room
+# The facade of the package (moyai/__init__.py) hands out the calls of every package
 FACADE = 13
 
 
-def room(path):
+def package_of(path):
     parts = path.relative_to(SOURCE).parts
     return parts[0] if len(parts) > 1 else ""
 
@@ -76,13 +76,13 @@ def test_only_the_kind_and_its_role_know_case_files_and_drawings(role):
     assert not wrong, "\n".join(wrong)
 
 
-def test_every_room_has_a_level():
-    rooms = {path.name for path in SOURCE.iterdir() if path.is_dir() and (path / "__init__.py").exists()}
-    assert rooms <= set(LEVELS), f"no level for {sorted(rooms - set(LEVELS))}"
+def test_every_package_has_a_level():
+    packages = {path.name for path in SOURCE.iterdir() if path.is_dir() and (path / "__init__.py").exists()}
+    assert packages <= set(LEVELS), f"no level for {sorted(packages - set(LEVELS))}"
 
 
 def upward_imports(path, imports):
-    own = room(path)
+    own = package_of(path)
     level = LEVELS[own] if own else FACADE
     for module, line in imports:
         parts = module.split(".")
@@ -107,7 +107,7 @@ def test_only_report_draws():
     wrong = [
         f"{path.relative_to(SOURCE)}, line {line}: {module}"
         for path in FILES
-        if room(path) not in ("report", "app")
+        if package_of(path) not in ("report", "app")
         for module, line in imported_modules(path)
         if module.split(".")[0] in PLOTTING
     ]

@@ -1,4 +1,5 @@
-"""Kernels neither read nor write; problem, case and result objects are frozen; nobody prints or debugs."""
+"""Kernels neither read nor write; problem, case and result objects are frozen; nobody prints or debugs; no condition
+is empty."""
 
 import pytest
 from source_files import SOURCE, findings, findings_of_text
@@ -9,6 +10,7 @@ RULES = {
     "mutable_dataclasses": "@dataclass(frozen=False)\nclass Found:\n    x: float\n",
     "mutable_models": "class Base(BaseModel):\n    x: float\n",
     "bare_excepts": "try:\n    x = 1\nexcept:\n    x = 2\n",
+    "empty_conditions": "if TYPE_CHECKING:\n    pass\n",
 }
 
 

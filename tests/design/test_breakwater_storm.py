@@ -31,7 +31,7 @@ def codes(result):
 
 
 @pytest.mark.slow
-def test_slow_drift_is_on_and_switching_it_off_is_told(tmp_path):
+def test_slow_drift_is_on_and_switching_it_off_is_reported(tmp_path):
     quick = "realisations: 1, lines: {mode: quasi_static}"
     with_drift = result_of(tmp_path, duration=300.0, settings=f"settings: {{time: {{{quick}}}}}")
     without = result_of(tmp_path, duration=300.0, settings=f"settings: {{time: {{drift: ramped, {quick}}}}}")

@@ -1,4 +1,4 @@
-"""Five ordinary cages: each first page beside a hand calculation, all defaults.
+"""Five ordinary cages: each first page compared with a hand calculation, all defaults.
 
 By hand: a cage whose net hardly deforms bears, by Loland's screen law on a wall of radius R and height H,
 ``F = rho/2 U^2 R H [pi 0.04 + 2 (C_D - 0.04)] (1 + r^2)``, the second half of the wall standing in the speed r U with

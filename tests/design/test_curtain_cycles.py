@@ -61,13 +61,13 @@ def judged(tmp_path_factory: pytest.TempPathFactory):
 
 
 @pytest.mark.slow
-def test_a_daily_wave_beside_the_storm_takes_nothing_away(judged):
+def test_a_daily_wave_next_to_the_storm_takes_nothing_away(judged):
     assert judged(STORM, daily(0.4)) >= judged(STORM) * (1.0 - 1e-9)
     assert judged(STORM, daily(0.4)) >= judged(daily(0.4)) * (1.0 - 1e-9)
 
 
 @pytest.mark.slow
-def test_the_impact_beside_the_storm_takes_nothing_away(judged):
+def test_the_impact_next_to_the_storm_takes_nothing_away(judged):
     assert judged(STORM, analyses="statics, impact, waves") >= judged(STORM) * (1.0 - 1e-9)
 
 

@@ -1,4 +1,4 @@
-"""Ordinary curtains in default settings: the first page beside a hand calculation.
+"""Ordinary curtains in default settings: the first page compared with a hand calculation.
 
 Hand calculation: with the pressure q = rho C_D U^2 / 2 and the weight W at the toe a weightless skirt hangs as
 d = a asinh(L/a), a = W/q, and pulls its top with W L / sqrt(a^2 + L^2) per length. The sheet's own weight lies between
@@ -268,7 +268,7 @@ def test_one_number_on_page_table_and_record(designs, name: str) -> None:
 
 @pytest.mark.parametrize("name", FREE)
 def test_a_plate_never_governs_a_free_toe(designs, name: str) -> None:
-    """A model out of its range is told as a bound, and why."""
+    """A model out of its range is reported as a bound, and why."""
     _, result = designs(name)
     roles = result.tree["/SWL/models"].to_dataset()
     for model in (models.IMPACT, models.CYCLES):

@@ -1,4 +1,4 @@
-"""Ordinary curtains, all defaults: the governing steady load beside a calculation by hand.
+"""Ordinary curtains, all defaults: the governing steady load compared with a calculation by hand.
 
 By hand, with q = rho/2 C_D U^2, W' the toe's weight in water with half of the sheet's:
 free toe  F = W' sin(arctan(qL/W')), the closed form of the load of the normal velocity;

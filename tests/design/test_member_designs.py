@@ -1,4 +1,4 @@
-"""Five ordinary members: each first page beside a hand calculation, all defaults.
+"""Five ordinary members: each first page compared with a hand calculation, all defaults.
 
 Tolerances: linear theory and Morison's equation are the same on both sides, so that they differ by strips (40 along the
 member), 200 steps of a period and stretching alone: 1 % unless said otherwise.
@@ -239,7 +239,7 @@ def test_a_limit_on_the_force_of_a_storm_is_judged_beyond_the_mean():
 
 @pytest.mark.slow
 def test_one_realisation_stays_open_behind_a_higher_regular_wave():
-    """A storm of one realisation proves no limit alone, nor beside a regular wave of six times its height."""
+    """A storm of one realisation proves no limit alone, nor next to a regular wave of six times its height."""
     one = storm("settings: {realisations: 1}\ncriteria: {greatest_force: 10 MN}\n")
     wave = "{name: wave, kind: regular, height: 6, period: 8, heading_deg: 0}"
     sea = one[one.index("waves: ") :].partition("\n")[0]

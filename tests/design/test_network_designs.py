@@ -1,4 +1,4 @@
-"""Five ordinary networks: each first page beside a hand calculation, all defaults."""
+"""Five ordinary networks: each first page compared with a hand calculation, all defaults."""
 
 from __future__ import annotations
 

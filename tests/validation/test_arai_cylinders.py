@@ -1,7 +1,7 @@
 """Arai et al., horizontal cylinders at low KC: every statement of the paper that this package can hold.
 
 Sources: the paper's equations and quoted numbers; Chaplin (1984), C_M = 2 - 0.21 KC^2; Otsuka and Ikeda (1993),
-C_M = 2 - (2/pi^2) KC^2. The water depth is not told; circular orbits are used where the paper speaks of KC alone.
+C_M = 2 - (2/pi^2) KC^2. The water depth is not stated; circular orbits are used where the paper speaks of KC alone.
 """
 
 import math

@@ -198,7 +198,7 @@ def test_spar_of_hams_in_beam_and_head_seas(shared_data):
         zero_frequency_code=0.0,
         infinite_frequency_code=-1.0,
     )
-    # The same run in HAMS' own format lists 2.712 and 3.835 rad/s beside these wave numbers
+    # The same run in HAMS' own format lists 2.712 and 3.835 rad/s next to these wave numbers
     np.testing.assert_allclose(dataset["omega"], [2.712, 3.835], atol=1.1e-3)
     beam = to_planar(dataset, length=7.0, centre_of_gravity=(0.0, -78.0), sea="beam").sel(
         wave_direction=0.0, method="nearest"

@@ -78,6 +78,6 @@ def test_cycle_maxima_within_five_percent_on_average(errors):
 
 
 @pytest.mark.slow
-def test_other_sense_of_rotation_is_told_apart(errors):
+def test_other_sense_of_rotation_is_distinguished(errors):
     assert 0.09 < np.mean(np.abs(errors[1.0])) < 0.17
     assert np.all(errors[1.0] > errors[-1.0])

@@ -87,6 +87,6 @@ def test_time_domain(solved):
         (", plates: [{pionts: [[0, 0], [0, -1]]}]", "points"),
     ],
 )
-def test_faults_are_told_at_their_line(solved, plates, word):
+def test_faults_are_reported_at_their_line(solved, plates, word):
     with pytest.raises(MoyaiError, match=word):
         solved(plates=plates)

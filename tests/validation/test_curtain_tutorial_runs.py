@@ -31,7 +31,7 @@ def test_first_curtain(tmp_path, monkeypatch, capsys):
     assert (tmp_path / "dredging-report" / "report.html").stat().st_size > 1e5
 
 
-def test_mistakes_of_the_curtain_tutorial_are_told(tmp_path):
+def test_mistakes_of_the_curtain_tutorial_are_reported(tmp_path):
     case = next(block for block in blocks("yaml") if block.startswith("moyai: 1"))
     file = tmp_path / "dredging.yaml"
     file.write_text(case.replace("span: 15 m", "span: 17 m"), encoding="utf-8")

@@ -139,7 +139,7 @@ def test_shock_in_a_rope_that_stiffens(seed):
 
 
 @pytest.mark.parametrize("rows", [40, 1, 0.125])
-def test_a_front_is_told_whatever_the_rows(rows):
+def test_a_front_is_reported_whatever_the_rows(rows):
     history, _ = struck(3.0, 60, 8.0, rows=rows)
     assert [notice.code for notice in history.notices] == ["wave-front"]
     heavy, _ = struck(400.0, 60, 24.0, rows=rows)
@@ -147,7 +147,7 @@ def test_a_front_is_told_whatever_the_rows(rows):
     assert not heavy.notices
 
 
-def test_a_rope_beyond_its_curve_is_told():
+def test_a_rope_beyond_its_curve_is_reported():
     history = {}
     for stretch in (0.04, 0.06):
         builder = NetworkBuilder(VOID)

@@ -127,7 +127,7 @@ def test_motions_of_the_prototype(row):
     slip = 0.15 if (kind, period, quantity) in (("slack", 1.6, "rotation"), ("slack", 1.4, "rotation")) else 0.08
     slip = max(slip, 0.013 / max(low, 1e-9))  # two digits in print
     if kind == "crossed" and quantity == "sway" and low < high:
-        slip = 0.2  # anchors and pull of the lower end are not told
+        slip = 0.2  # anchors and pull of the lower end are not stated
     for value in found:
         assert low * (1.0 - slip) <= value <= high * (1.0 + slip)
 
@@ -193,7 +193,7 @@ def test_what_the_paper_says_and_this_does_not_find():
 
 
 @pytest.mark.parametrize("fault", [*FAULTS, "all"])
-def test_printed_equations_fail_as_told(fault):
+def test_printed_equations_fail_as_stated(fault):
     """One fault at a time on the sound equations, and all of them, at T = 1.1 s, H = 3 cm."""
     case = problem()
     cage, water = case.cage, case.environment.water

@@ -94,7 +94,7 @@ def test_undamped_motion() -> None:
     body = model.paper_model()
     motions = solve_motions(hydro, body.inertia, body.stiffness, damping=LinearDamping.none(3))
     roll = 0.5 * model.BEAM * abs(motions.displacement[model.row(0.90), 0, 2])
-    # Beside an undamped resonance 0.3 % of the hydrodynamics are several per cent of the motion
+    # Next to an undamped resonance 0.3 % of the hydrodynamics are several per cent of the motion
     assert roll == pytest.approx(7.95, rel=0.03)
     far = far_field(hydro, motions.displacement)
     assert np.max(np.abs(far.loss)) < 1e-9

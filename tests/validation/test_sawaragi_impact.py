@@ -271,7 +271,7 @@ def test_cable_and_skirt_together(cable, skirt, tension):
     [(0.135, 5e4, 373.5), (0.135, 2e4, 240.6), (0.12, 5e4, 442.0), (0.1425, 5e4, 293.5)],
 )
 def test_stretching_skirt_against_section_finite_elements(chord, stiffness, elements):
-    """Bars with the dense added mass of panels, ends held, uniform start: energy_mid within 5 %, the others as told."""
+    """Bars with the dense added mass of panels, ends held, uniform start: energy_mid within 5 %, others as stated."""
     loads = {
         name: skirt_impact(flume(), BulgedSkirt(0.15, chord, stiffness), name).edge_load for name in get_args(Variant)
     }

@@ -71,7 +71,7 @@ def test_statement_1_tension_is_linear_in_wave_height(example, new):
 
 
 def test_statement_2_steady_tension_knows_nothing_of_the_current(data, new):
-    """Drag of 0.2 m/s is 1.8 kN on a unit at most, beside steady tensions of 4 to 12 kN that come from elsewhere."""
+    """Drag of 0.2 m/s is 1.8 kN on a unit at most, next to steady tensions of 4 to 12 kN that come from elsewhere."""
     drag = 0.5 * 1025.0 * 1.2 * 5.0 * 0.2**2
     assert drag * 15.0 == pytest.approx(1.8e3, rel=0.05)
     assert correlation(new.current_normal, new.averaged("steady")).holds(0.0)

@@ -234,7 +234,7 @@ def periods_of_the_box():
 def campaign():
     module = example("records/campaign")
     with tempfile.TemporaryDirectory() as folder:
-        data, pairs, _, laws = module.work_off(folder, report=False)
+        data, pairs, _, laws = module.process(folder, report=False)
     rows, _ = module.statements(data, pairs, laws)
     sectors = [value for name, value, _, _ in rows if name.startswith("10")]
     for name, value, error, _ in rows:

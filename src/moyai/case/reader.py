@@ -1,4 +1,4 @@
-"""Read a case file: all its faults at once, or a frozen case."""
+"""Read a case file: all its errors at once, or a frozen case."""
 
 from __future__ import annotations
 
@@ -276,7 +276,7 @@ def read_block(document: CaseDocument, root: type[Block]) -> Any:
     Raises
     ------
     CaseError
-        With every fault of the file at once, each with line and column.
+        With every error of the file at once, each with line and column.
     """
     if not isinstance(document.data, dict):
         keys = ", ".join(root.key_names())

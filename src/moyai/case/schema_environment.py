@@ -134,7 +134,7 @@ class RegularWavesOfHeights(RegularWavesKeys):
 
     height: PositiveLength | None = Field(default=None, description="Wave height H, crest to trough.")  # type: ignore[assignment]
     heights: Annotated[tuple[PositiveLength, ...], Field(min_length=1, max_length=1000), AfterValidator(once_each)] = (
-        Field(default=(), description="Wave heights: a list; each is run with every period.")
+        Field(default=(), description="Wave heights: a list; the first is run with every period, then the next.")
     )
 
     def all_heights(self) -> tuple[float, ...]:

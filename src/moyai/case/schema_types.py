@@ -1,4 +1,4 @@
-"""The types that schemas are made of: quantities with units, names, blocks that report every fault at once."""
+"""The types that schemas are made of: quantities with units, names, blocks that report every error at once."""
 
 from __future__ import annotations
 

@@ -149,6 +149,8 @@ class Collected:
     ) -> Result:
         """Close the run: names, status, message, notices by their weight, provenance.
 
+        A variable that does not fit its declaration gives a notice, see :meth:`.Vocabulary.close`.
+
         Parameters
         ----------
         vocabulary : Vocabulary
@@ -175,7 +177,7 @@ class Collected:
         """
         import xarray as xr
 
-        groups = vocabulary.close(self.groups)
+        groups, undeclared = vocabulary.close(self.groups)
         status, message = self.status(fulfilled)
         numbers = tuple(headlines)
         known = {name: attributes[name] for name in ("title", "case_hash", "structure")}
@@ -184,7 +186,7 @@ class Collected:
             status=status,
             message=message,
             checks=tuple(self.checks),
-            notices=by_weight(self.notices if notices is None else notices),
+            notices=by_weight([*(self.notices if notices is None else notices), *undeclared]),
             provenance=make_provenance(**known, seeds=list(seeds)),
             headlines=numbers,
             verdict=judge(numbers, criteria, computed=status == "converged" or self._safe(status), left_out=left_out),

@@ -79,7 +79,7 @@ class ConvergenceError(MoyaiError, RuntimeError):
 
 
 class CaseError(MoyaiError):
-    """All faults of one case file at once."""
+    """All errors of one case file at once."""
 
     def __init__(self, faults: Sequence[Fault]) -> None:
         self.faults = tuple(faults)

@@ -2,7 +2,7 @@
 
 Concepts that several kinds of result share are declared here. A kind adds its own in ``variables.py`` of its folder and
 closes its groups through its :class:`Vocabulary`; reports and studies ask through the same declarations. A name without
-a declaration is a fault of the program, never of a case.
+a declaration is an error of the program, never of a case.
 """
 
 from __future__ import annotations
@@ -16,6 +16,7 @@ import numpy as np
 
 from moyai.core.duck_arrays import look_for_imported_dask
 from moyai.core.remembered import Remembered, key_of_objects
+from moyai.core.validity import Notice
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -26,12 +27,14 @@ _MOST_BYTES = 1 << 16
 NO_UNIT = ""
 #: Group below which each set of measured points of a case stands: x and y in units of the user's file.
 MEASURED_GROUP = "/measured_points"
+_REMEDY = "an error of the program, not of the case: the numbers stand in the file as computed; please report it"
 
 
 class Strictness:
     """Whether a name without a declaration is an error, as in the tests of the program.
 
-    A user's run keeps what it computed and gets a warning: hours of work are not lost for a missing word.
+    A user's run keeps what it computed and gets a warning (:meth:`Vocabulary.close`): hours of work are not lost for a
+    missing word.
     """
 
     names = False
@@ -377,7 +380,7 @@ class Vocabulary:
         return out.set_coords(list(along)) if along else out
 
     def described(self, groups: Mapping[str, xr.Dataset]) -> tuple[dict[str, xr.Dataset], tuple[str, ...]]:
-        """Return the groups of a result, described, and what is wrong with their names: see :meth:`close`.
+        """Return the groups of a result, described, and what is wrong with their variables: see :meth:`close`.
 
         Parameters
         ----------
@@ -386,12 +389,18 @@ class Vocabulary:
         """
         owners = {path: self.at(path) for path in groups}
         faults = [fault for path, own in owners.items() if own for fault in own._faults(path, groups[path])]
-        faults += [f"{path}: '{name}' is absent" for path, group in groups.items() for name in self.absent(path, group)]
+        faults += [
+            f"{path}: variable '{name}' is absent"
+            for path, group in groups.items()
+            for name in self.absent(path, group)
+        ]
         out = {path: own.describe(groups[path]) if own else groups[path] for path, own in owners.items()}
         return out, tuple(faults)
 
-    def close(self, groups: Mapping[str, xr.Dataset]) -> dict[str, xr.Dataset]:
-        """Return the groups of a result, described.
+    def close(self, groups: Mapping[str, xr.Dataset]) -> tuple[dict[str, xr.Dataset], tuple[Notice, ...]]:
+        """Return the groups of a result, described, and a warning for each variable that does not fit its declaration.
+
+        Such a variable is not declared, has another unit, lacks a dimension, or is absent where its group must hold it.
 
         Parameters
         ----------
@@ -401,28 +410,27 @@ class Vocabulary:
         Raises
         ------
         VocabularyError
-            With group and name of every variable or coordinate that is not declared, has another unit or lacks a
-            dimension, and of what a group must hold and does not.
+            With group and name of all such variables, where names are held strictly.
         """
         out, faults = self.described(groups)
         if faults and Strictness.names:
             raise VocabularyError(f"results of kind '{self.kind}': {'; '.join(faults)}")
-        return out
+        return out, tuple(Notice("undeclared-variable", fault, remedy=_REMEDY) for fault in faults)
 
     def _faults(self, path: str, dataset: xr.Dataset) -> Iterator[str]:
         for name, held in dataset.variables.items():
             if name not in self:
-                yield f"{path}: '{name}' is not declared"
+                yield f"{path}: variable '{name}' is not declared"
                 continue
             known = self.variables.get(str(name))
             if known is None:
                 continue
             units = held.attrs.get("units", known.units)
             if known.units != NO_UNIT and units != known.units:
-                yield f"{path}: '{name}' has the unit '{units}', declared is '{known.units}'"
+                yield f"{path}: variable '{name}' has the unit '{units}', declared is '{known.units}'"
             missing = [dim for dim in known.dims if dim not in held.dims]
             if missing:
-                yield f"{path}: '{name}' has no dimension {', '.join(missing)}"
+                yield f"{path}: variable '{name}' has no dimension {', '.join(missing)}"
 
 
 def joined(kind: str, parts: Iterable[Vocabulary]) -> Vocabulary:

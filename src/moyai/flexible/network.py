@@ -135,7 +135,7 @@ def parts(count: int, start: np.ndarray, end: np.ndarray) -> np.ndarray:
 
 
 def _check_network(network: Network) -> None:
-    """Raise InputError at the first fault of a network.
+    """Raise InputError at the first error of a network.
 
     Raises
     ------

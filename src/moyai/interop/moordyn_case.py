@@ -7,7 +7,7 @@ import math
 import re
 from collections.abc import Iterable, Mapping
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
 
@@ -22,9 +22,6 @@ from moyai.interop.moordyn_system import BodyOfDeck, bodies_of, end_name, rod_kn
 from moyai.interop.moordyn_waves import amplitude_and_phase
 from moyai.interop.textfiles import read_lines
 from moyai.mooring.rotations import roll_pitch_yaw
-
-if TYPE_CHECKING:
-    pass
 
 _RULE = re.compile(r"^\s*-{3,}\s*([A-Za-z][A-Za-z ]*?)\s*-{3,}")
 _PLAIN = re.compile(r"[A-Za-z][\w .()/+-]*")

@@ -15,6 +15,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from moyai.core.errors import InputError
+from moyai.core.files import write_whole
 from moyai.core.options import checks_words
 from moyai.flexible.bed import Bed
 from moyai.interop.moordyn_bodies import DeckBody, DeckRod, DeckRodType, attachment_word
@@ -420,23 +421,23 @@ def write_deck(deck: MoorDynDeck, path: str | Path) -> Path:
             path="options.Currents",
             remedy="replace it by a steady current (Currents 1)",
         )
-    place.write_text(deck_text(deck), encoding="utf-8")
+    lines: dict[str, list[str]] = {}
     for kind in deck.line_types:
         if isinstance(kind.stiffness, StiffnessTable):
             table = kind.stiffness
             rows = [f"{_digits(e)} {_digits(t)}" for e, t in zip(table.strain, table.tension, strict=True)]
-            (place.parent / table.file).write_text(
-                "\n".join(["Strain Tension", "(-) (N)", *rows, ""]), encoding="utf-8"
-            )
+            lines[table.file] = ["Strain Tension", "(-) (N)", *rows]
     if deck.waves is not None:
         columns = (deck.waves.omega, deck.waves.real, deck.waves.imaginary, deck.waves.direction)
         rows = [" ".join(map(_digits, row)) for row in zip(*columns, strict=True)]
-        (place.parent / FREQUENCY_FILE).write_text("\n".join(["0 0 0 0", *rows, ""]), encoding="utf-8")
+        lines[FREQUENCY_FILE] = ["0 0 0 0", *rows]
     if deck.current is not None:
         rows = [
             f"{_digits(z)} {_digits(u)} {_digits(v)} 0.0"
             for z, (u, v) in zip(deck.current.z, deck.current.velocity, strict=True)
         ]
         heading = ["--- MoorDyn steady currents File", "Water currents", "z (m), ux (m/s), uy (m/s), uz (m/s)"]
-        (place.parent / CURRENT_FILE).write_text("\n".join([*heading, *rows, ""]), encoding="utf-8")
-    return place
+        lines[CURRENT_FILE] = [*heading, *rows]
+    for name, rows in lines.items():
+        write_whole(place.parent / name, "\n".join([*rows, ""]).encode("utf-8"))
+    return write_whole(place, deck_text(deck).encode("utf-8"))

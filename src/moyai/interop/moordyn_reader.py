@@ -1,4 +1,4 @@
-"""Read MoorDyn input files; all faults of a file come at once, each with its line.
+"""Read MoorDyn input files; all errors of a file come at once, each with its line.
 
 MoorDyn itself ignores unknown words and takes columns by their place. Here columns go by their headings;
 where a heading is not known by its place, and where the place would have given other values, a note says so. Options
@@ -502,7 +502,7 @@ def read_deck(path: str | Path) -> MoorDynDeck:
     InputError
         When the file is absent or empty.
     CaseError
-        All faults at once, each with its line: missing and unknown sections, columns, options; failures and other
+        All errors at once, each with its line: missing and unknown sections, columns, options; failures and other
         parts of the format that have no counterpart here; numbers out of range; points and line types that
         are not there.
     """

@@ -103,7 +103,7 @@ class Waves:
         return self.highest(1.0 / 3.0)[1]
 
     def statistics(self) -> dict[str, float]:
-        """Return the usual figures; NaN where there is no wave.
+        """Return the usual statistics; NaN where there is no wave.
 
         Returns
         -------
@@ -116,7 +116,7 @@ class Waves:
             return {"count": 0.0, **dict.fromkeys(STATISTICS[1:], math.nan)}
         top = int(np.argmax(self.height))
         tenth, third = self.highest(0.1), self.highest(1.0 / 3.0)
-        figures = (
+        values = (
             float(len(self)),
             float(self.height[top]),
             float(self.period[top]),
@@ -128,7 +128,7 @@ class Waves:
             float(self.crest.max()),
             float(self.trough.min()),
         )
-        return dict(zip(STATISTICS, figures))
+        return dict(zip(STATISTICS, values))
 
 
 STATISTICS = (

@@ -80,7 +80,7 @@ def load_fit(path: str | os.PathLike[str]) -> StudyFit:
     Raises
     ------
     CaseError
-        With every fault at once.
+        With every error at once.
 
     Examples
     --------

@@ -71,7 +71,7 @@ def load_study(path: str | os.PathLike[str], progress: Progress = silent) -> Stu
     Raises
     ------
     CaseError
-        With every fault of the study file, or of the cases, at once.
+        With every error of the study file, or of the cases, at once.
 
     Examples
     --------

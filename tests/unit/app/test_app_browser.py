@@ -65,7 +65,7 @@ def test_a_slider_redraws_the_figures(address: str) -> None:
         until(page, f"{FORCES} !== {before!r} && {IDLE}")
         assert page.evaluate(TEXT) == MEMBER.replace("100 cm", "80 cm")
         time.sleep(0.5)
-        assert page.evaluate(STATE).startswith("Draft of forces"), "what is shown is told, also when it came at once"
+        assert page.evaluate(STATE).startswith("Draft of forces"), "what is shown is announced, even at once"
         assert page.evaluate(TO_DO) == [False, False]
 
         page.evaluate(f"{PRESS}('Undo')")
@@ -150,7 +150,7 @@ def test_a_file_that_another_program_changes(address: str, tmp_path: Path) -> No
         until(page, f"{TEXT}.includes('80 cm') && {IDLE}")
         # typed and saved within the pause after typing
         page.evaluate(f"{TEXT.removesuffix('.text')}.type({MEMBER.replace('Quick', 'Typed')!r}); {PRESS}('Save')")
-        until(page, "document.getElementById('told').textContent.includes('is saved')")
+        until(page, "document.getElementById('announcement').textContent.includes('is saved')")
         assert file.read_text() == MEMBER.replace("Quick", "Typed") == page.evaluate(TEXT)
         sound(page, address)
 

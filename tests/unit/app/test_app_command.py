@@ -44,7 +44,7 @@ def test_the_folder_of_a_file_is_chosen(tmp_path: Path) -> None:
         serve.chosen_folder(tmp_path, None)
 
 
-def test_a_port_that_is_taken_is_told() -> None:
+def test_a_port_that_is_taken_is_reported() -> None:
     with socket.socket() as taken:
         taken.bind(("127.0.0.1", 0))
         taken.listen()

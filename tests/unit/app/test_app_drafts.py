@@ -1,4 +1,4 @@
-"""Drafts: numbers of a fresh run, stale ones dropped, a killed process told, hostile texts refused."""
+"""Drafts: numbers of a fresh run, stale ones dropped, a killed process reported, hostile texts refused."""
 
 from __future__ import annotations
 
@@ -209,7 +209,7 @@ def kinds(said: list[dict[str, Any]]) -> list[str]:
 
 
 @pytest.mark.slow
-def test_stale_drafts_are_given_up_and_a_killed_process_is_told(tmp_path: Path) -> None:
+def test_stale_drafts_are_given_up_and_a_killed_process_is_reported(tmp_path: Path) -> None:
     slow = MEMBER.replace("Quick", "slow")
 
     async def scenario() -> None:

@@ -1,4 +1,4 @@
-"""Jobs: one after the other, cancelled within seconds, told when killed, started again."""
+"""Jobs: one after the other, cancelled within seconds, reported when killed, started again."""
 
 from __future__ import annotations
 
@@ -79,7 +79,7 @@ def test_a_deaf_job_is_ended_after_two_seconds(queue: Any, tmp_path: Path) -> No
 
 
 @pytest.mark.skipif(not hasattr(signal, "SIGKILL"), reason="no SIGKILL here")
-def test_a_killed_process_is_told_and_can_be_started_again(queue: Any, tmp_path: Path) -> None:
+def test_a_killed_process_is_reported_and_can_be_started_again(queue: Any, tmp_path: Path) -> None:
     jobs = queue(deaf_work)
     job = jobs.add(order(tmp_path))
     until(job, "running")
@@ -103,7 +103,7 @@ def test_the_command_line_names_the_file_to_a_shell(tmp_path: Path, name: str) -
     assert said.stdout == f"run|{name}|--output|{name}|"
 
 
-def test_results_that_cannot_be_written_are_told_in_plain_words(queue: Any, tmp_path: Path) -> None:
+def test_results_that_cannot_be_written_are_reported_in_plain_words(queue: Any, tmp_path: Path) -> None:
     (tmp_path / "out").write_text("a file stands here")
     job = queue(work).add(Order("run", "a.yaml", tmp_path / "out" / "a", tmp_path, tmp_path / "a.yaml"))
     until(job, "failed")

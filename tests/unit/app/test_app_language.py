@@ -104,9 +104,9 @@ def test_the_server_speaks_japanese(page: Any) -> None:
         record = page.post("/api/cases", content=json.dumps({"template": template})).json()
         form = page.get(f"/api/cases/{record['id']}/form").json()["form"]
         assert form["label"] == "ケース"
-        told = [text for text in helps(form) if text]
-        assert len(told) > 20
-        assert [text for text in told if set(latin_words(text)) - kept] == []
+        reported = [text for text in helps(form) if text]
+        assert len(reported) > 20
+        assert [text for text in reported if set(latin_words(text)) - kept] == []
 
     key = page.post("/api/cases", content="{}").json()["id"]
     broken = json.dumps({"text": MEMBER.replace("diameter: 100 cm", "diameter: -1 m"), "sequence": 1})

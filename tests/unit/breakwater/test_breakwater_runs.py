@@ -234,7 +234,7 @@ def test_interrupt_keeps_what_was_done(pontoon_problem, tmp_path):
 
 @pytest.mark.slow
 @pytest.mark.parametrize("lid", [0.0, pytest.param(0.05, marks=pytest.mark.slow)])
-def test_gap_of_a_twin_pontoon_is_told(pontoon_problem, lid):
+def test_gap_of_a_twin_pontoon_is_reported(pontoon_problem, lid):
     hull = twin_pontoon(0.15, 0.3, 0.2, deck_thickness=0.05)
     problem = changed(
         pontoon_problem,

@@ -131,7 +131,7 @@ def test_run_tells_both_kinds_of_line_and_its_steps(run) -> None:
 
 
 @pytest.mark.slow
-def test_report_shows_lines_in_motion_beside_lines_at_rest(run, tmp_path) -> None:
+def test_report_shows_lines_in_motion_next_to_lines_at_rest(run, tmp_path) -> None:
     written = moyai.write_report(run, tmp_path)
     page = next(path for path in tmp_path.rglob("*.html")).read_text()
     assert "Lines in motion and lines at rest" in page

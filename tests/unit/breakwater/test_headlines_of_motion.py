@@ -89,7 +89,7 @@ def test_no_further_sea_makes_a_limit_on_transmission_hold():
 
 
 def test_a_further_period_takes_no_wide_band_away():
-    """Near its resonance the transmission hangs on damping; a stiff period beside it is larger and narrow."""
+    """Near its resonance the transmission hangs on damping; a stiff period next to it is larger and narrow."""
     limit = Criterion("greatest_transmission", "transmission", 0.43, "at most", "case file")
     level = {"/SWL": xr.Dataset(attrs={"water_depth": 10.0})}
 

@@ -69,7 +69,7 @@ def test_what_is_beyond_its_range_in_one_realisation_alone_says_so():
     assert "in one realisation" not in headline(line_headlines([OTHER]), "line_tension").detail
 
 
-def test_a_level_within_the_scatter_is_not_told_apart():
+def test_a_level_within_the_scatter_is_not_distinguished():
     lower = replace(GOVERNS, level="LWL", tension=380e3, scatter=SCATTER - 20e3)
     assert "not distinguished from LWL (380 kN)" in headline(line_headlines([GOVERNS, lower]), "line_tension").detail
     # Student's 2.13 times the standard error of 35 kN, of both: 107 kN

@@ -42,7 +42,7 @@ ROPE = (
 def test_small_waves_give_the_linear_motions_with_their_phase(tmp_path, seed) -> None:
     """Amplitude and phase of sway, heave and roll at a random period with lines of random stiffness.
 
-    The lines are light (40 g in all beside 42 kg) so that their own inertia is small, and stiff enough to matter:
+    The lines are light (40 g in all, the body 42 kg) so that their own inertia is small, and stiff enough to matter:
     without them sway differs by a tenth and more in the longer waves.
     """
     random = np.random.default_rng(seed)

@@ -58,7 +58,7 @@ def test_what_was_given_asks_for_no_limit(short_sea: Result) -> None:
     assert "highest line tension" in text and "current" not in text and "realised" not in text
 
 
-def test_a_record_that_falls_short_is_told_with_its_shortfall(short_sea: Result) -> None:
+def test_a_record_that_falls_short_is_reported_with_its_shortfall(short_sea: Result) -> None:
     """1.78 m for 2 m asked: forces with the square of the height lack 1 - 0.89^2 = 21 %."""
     (notice,) = check_realised_height("storm", 1.78, 2.0)
     assert "1.78 m, 2 m were asked" in notice.message and "21 % low" in notice.message

@@ -101,7 +101,7 @@ def test_the_band_holds_the_answer_of_a_finer_mesh(monkeypatch):
     for name in ("volume_left", "drag", "line_tension", "collar_stress", "anchor_tension", "offset"):
         assert "mesh" in coarse[name].band.of, name
         assert coarse[name].band.low <= fine[name].value <= coarse[name].band.high, name
-    # the pull on an anchor is told in its two parts
+    # the pull on an anchor is reported in its two parts
     assert coarse["anchor_tension"].detail.startswith("upwards ")
 
 

@@ -34,7 +34,7 @@ def test_blocks_tell_where_they_lead():
     assert limit_of(blocks) == pytest.approx([100.0, 51.0, 75.0, 52.5])
 
 
-def test_periods_are_told_apart():
+def test_periods_are_distinguished():
     time = np.linspace(0.0, 40.0, 401)
     found = by_period(time, np.sin(2.0 * np.pi * time / PERIOD) + np.floor((time + 1e-9) / PERIOD), PERIOD, 10.0)
     assert found == pytest.approx([3.0, 4.0, 5.0, 6.0, 7.0, 8.0], abs=0.01)

@@ -387,7 +387,7 @@ def test_a_shape_of_four_sides_is_symmetric() -> None:
         (lambda m: replace(m, rows=0), "0 x 1 cages"),
     ],
 )  # fmt: skip
-def test_faults_are_told(change: object, words: str) -> None:
+def test_faults_are_reported(change: object, words: str) -> None:
     with pytest.raises(InputError, match=words):
         change(moored())  # type: ignore[operator]
 
@@ -456,7 +456,7 @@ def test_bars_of_a_net_stand_for_the_width_between_their_neighbours():
     upright = np.abs(place[bars.end] - place[bars.start])[cage.net_bars, 2] > 0.1
     chord = ring_chord(model)
     assert width[upright] == pytest.approx(chord, rel=1e-12)
-    # bars around the wall lie between two rows of panels, the lowest beside one
+    # bars around the wall lie between two rows of panels, the lowest next to one
     rows = np.unique(np.round(width[~upright], 9))
     height = model.design.net.wall_depth / model.mesh.down
     assert rows == pytest.approx([0.5 * height, height], rel=1e-9)

@@ -151,7 +151,7 @@ def table(found: list[Slip]) -> str:
         reported = sum(slip.reported for slip in group)
         stopped = sum(slip.outcome == "stopped" for slip in group)
         lines.append(
-            f"{kind or 'all':16s} {reported:5d} of {len(group):5d} told, {100 * reported / max(len(group), 1):5.1f} %, "
+            f"{kind or 'all':16s} {reported:5d} of {len(group):5d} seen, {100 * reported / max(len(group), 1):5.1f} %, "
             f"{stopped} of them stopped"
         )
     lines += [f"{slip.outcome} {slip.file} {slip.path} {slip.value} x{slip.factor:g}" for slip in found
@@ -168,8 +168,8 @@ if __name__ == "__main__":
         start = time.time()
         some = list(slips(file, content, place))
         gathered += some
-        told_here = sum(slip.reported for slip in some)
-        print(f"{file:40s} {told_here:4d} of {len(some):4d} {time.time() - start:7.1f} s", flush=True)
+        reported_here = sum(slip.reported for slip in some)
+        print(f"{file:40s} {reported_here:4d} of {len(some):4d} {time.time() - start:7.1f} s", flush=True)
         if "--list" in sys.argv:
             for slip in some:
                 if not slip.reported:

@@ -113,14 +113,14 @@ def test_each_slip_gives_one_clear_message(name):
 
 @pytest.mark.parametrize("rope", ("bridle", "frame_rope"))
 def test_a_rope_is_found_by_its_own_key(rope):
-    """A mistake in a rope is told at that rope, whatever the catalogue calls it."""
+    """A mistake in a rope is reported at that rope, whatever the catalogue calls it."""
     start = BASE.index(f"    {rope}: {{catalogue: ") + len(f"    {rope}: {{catalogue: ")
     known = BASE[start : BASE.index(",", start)]
     (fault,) = faults((f"{rope}: {{catalogue: {known}", f"{rope}: {{catalogue: {known}x"))
     assert f"structure.mooring.{rope}.catalogue" in fault
 
 
-def test_weights_of_one_mass_are_alike_however_they_are_told():
+def test_weights_of_one_mass_are_alike_however_they_are_reported():
     """A mass in air and its weight in water give the same sinkers, with the water that they drag along."""
     reported = build(case()).cage.design.sinkers
     submerged = (reported.mass - 1025.0 * reported.volume) * 9.81

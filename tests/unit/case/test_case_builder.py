@@ -86,7 +86,7 @@ def test_the_hash_knows_the_files_that_a_case_names(tmp_path):
     assert load_case(path).case_hash != first.case_hash
 
 
-def test_a_faulty_spectrum_file_is_told_with_its_row(tmp_path):
+def test_a_faulty_spectrum_file_is_reported_with_its_row(tmp_path):
     text = changed(
         ("kind: jonswap\n    significant_height: 1.0 m\n    peak_period: 5 s\n    peak_enhancement: 3.3",
          "kind: spectrum_file\n    file: sea.csv")

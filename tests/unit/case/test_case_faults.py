@@ -1,4 +1,4 @@
-"""Every bad input gets one clear message with its place; all of them are told at once."""
+"""Every bad input gets one clear message with its place; all of them are reported at once."""
 # ruff: noqa: E501  (one fault a line reads best)
 
 import pytest
@@ -95,7 +95,7 @@ SINGLE = {
 
 
 @pytest.mark.parametrize("name", SINGLE)
-def test_one_fault_is_told_with_its_place_and_reason(name):
+def test_one_fault_is_reported_with_its_place_and_reason(name):
     old, new, needle, path, words = SINGLE[name]
     text = changed((old, new))
     found = faults(text)
@@ -108,7 +108,7 @@ def test_one_fault_is_told_with_its_place_and_reason(name):
         assert len(found) == 1, "\n".join(found)
 
 
-def test_all_faults_are_told_at_once_in_the_order_of_the_file():
+def test_all_faults_are_reported_at_once_in_the_order_of_the_file():
     text = changed(
         ("water_depth: 10 m", "water_depth: -10 m"),
         ("periods: [4, 5, 6]", "periodes: [4, 5, 6]"),
@@ -129,7 +129,7 @@ def test_all_faults_are_told_at_once_in_the_order_of_the_file():
     ]
 
 
-def test_checks_between_keys_still_run_beside_misspelt_keys_and_bad_options():
+def test_checks_between_keys_still_run_next_to_misspelt_keys_and_bad_options():
     """A misspelt key is read as what it most likely means, so that the physics behind it is judged in the same go."""
     text = changed(
         ("draught: 3 m", "draugth: 12 m"),
@@ -144,7 +144,7 @@ def test_checks_between_keys_still_run_beside_misspelt_keys_and_bad_options():
     assert len(found.split("\n")) == 4
 
 
-def test_physics_of_sound_parts_is_judged_beside_faults_of_others():
+def test_physics_of_sound_parts_is_judged_next_to_faults_of_others():
     text = changed(
         ("height: 0.6 m", "height: 9 m"),
         ("significant_height: 1.0 m", "significant_height: 12 m"),

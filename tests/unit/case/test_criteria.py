@@ -64,7 +64,7 @@ def test_limits_of_named_seas_and_angles():
         ("criteria: {greatest_offset: 3 kN}\n", "expected a length"),
     ],
 )
-def test_faults_are_told(block, said):
+def test_faults_are_reported(block, said):
     assert any(said in fault for fault in faults(CASE + block)), faults(CASE + block)
 
 

@@ -65,6 +65,7 @@ FAULTS = {
     "analysis twice": ("[statics, impact, waves", "[statics, impact, statics", "analyses", "is given twice"),
     "wrong unit": ("weight: 180 N/m", "weight: 180 N", "structure.toe.weight", "force per length"),
     "both ends of the toe's weight": ("weight: 180 N/m", "weight: 180 N/m, chain_mass: 20 kg/m", "structure.toe.chain_mass", "exclude each other"),
+    "toe chain that floats": ("weight: 180 N/m", "chain_mass: 20 kg/m, chain_density: 1000 kg/m3", "structure.toe.chain_density", "more than 1025 kg/m3"),
     "range of the drag": ("range: [0.8, 1.4]", "range: [1.2, 1.4]", "structure.drag.range[0]", "at most 1"),
     "skirt that floats": ("submerged_weight: 3 N/m2", "submerged_weight: -60 N/m2", "structure.toe.weight", "the skirt floats"),
     "no weight of the skirt": ("submerged_weight: 3 N/m2, ", "", "structure.skirt", "the weight of the skirt is missing"),
@@ -98,7 +99,7 @@ def written(tmp_path: Path, text: str) -> Path:
 
 
 @pytest.mark.parametrize("name", FAULTS)
-def test_fault_is_told_with_its_place_and_reason(tmp_path, name):
+def test_fault_is_reported_with_its_place_and_reason(tmp_path, name):
     old, new, path, said = FAULTS[name]
     assert BASE.count(old) == 1, old
     text = BASE.replace(old, new)
@@ -109,11 +110,11 @@ def test_fault_is_told_with_its_place_and_reason(tmp_path, name):
     assert any(said in f"{fault.message} {fault.allowed} {fault.remedy}" for fault in found), [str(f) for f in found]
     key = path.split(".")[-1].split("[")[0]
     line = text.splitlines()[found[0].line - 1] if found[0].line else ""
-    # a missing key is told at its block
+    # a missing key is reported at its block
     assert key in line or key == "float_mass" or "is missing" in found[0].message, (line, str(found[0]))
 
 
-def test_all_faults_are_told_at_once(tmp_path):
+def test_all_faults_are_reported_at_once(tmp_path):
     text = (
         BASE.replace("length: 13.5 m", "length: 11 m")
         .replace("{length: 4 m, sub", "{length: 9 m, sub")
@@ -202,6 +203,12 @@ def test_units_degrees_and_catalogues_become_numbers(tmp_path):
     curtain = build(load_case(written(tmp_path, text))).curtain
     assert curtain.skirt.toe_load == pytest.approx(20.0 * 9.81 * (1.0 - 1025.0 / 7850.0))
     assert curtain.toe_chain == 20.0
+    denser = build(
+        load_case(
+            written(tmp_path, text.replace("chain_mass: 20 kg/m", "chain_mass: 20 kg/m, chain_density: 7000 kg/m3"))
+        )
+    )
+    assert denser.curtain.skirt.toe_load == pytest.approx(20.0 * 9.81 * (1.0 - 1025.0 / 7000.0))
     assert curtain.upper_stiffness == pytest.approx(2e11 * math.pi / 4 * 0.5e-3**2)
     assert curtain.lower_stiffness > 0.0 and math.isfinite(curtain.strengths.lower_cable.capacity)
     assert curtain.skirt.stiffness == pytest.approx(0.5 * (2e8 + 1e9) * 1e-4)
@@ -251,7 +258,7 @@ def test_template_and_examples_are_sound(tmp_path):
         assert load_case(file).kind == "curtain"
 
 
-def test_figures_that_change_nothing_are_told(tmp_path):
+def test_figures_that_change_nothing_are_reported(tmp_path):
     text = BASE.replace("range: [0.8, 1.4]}", "range: [0.8, 1.4], blockage: [0.2, 0.3, 0.5]}")
     text = text.replace(
         "upper: {axial_stiffness: 400 kN, breaking_load: 90 kN}", "upper: {catalogue: polyester, diameter: 20 mm}"

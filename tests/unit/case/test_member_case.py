@@ -83,7 +83,7 @@ def test_each_slip_gives_one_message_with_its_place(name):
     assert len(found) <= 2, found
 
 
-def test_waves_beyond_the_law_are_told_at_once():
+def test_waves_beyond_the_law_are_reported_at_once():
     found = case(("purpose: extreme", "purpose: response"), ("1.0 m]", "2.0 m]")).warnings
     assert sum("beyond the law's 2" in str(fault) for fault in found) == 2
     quiet = case(("purpose: extreme", "purpose: response\n    table: [[1.5, 0.4], [6, 0.1]]")).warnings

@@ -1,4 +1,4 @@
-"""Mistakes in network cases: each told once, with its place, what is allowed and how to mend it."""
+"""Mistakes in network cases: each reported once, with its place, what is allowed and how to mend it."""
 
 from pathlib import Path
 
@@ -83,7 +83,7 @@ def test_the_case_that_the_mistakes_start_from_is_sound(tmp_path):
 
 
 @pytest.mark.parametrize(("good", "bad", "said", "helps"), MISTAKES, ids=[f"{n}" for n in range(len(MISTAKES))])
-def test_a_mistake_is_told_once_with_its_place(tmp_path, good, bad, said, helps):
+def test_a_mistake_is_reported_once_with_its_place(tmp_path, good, bad, said, helps):
     assert good in GOOD
     faults = faults_of(GOOD.replace(good, bad, 1), tmp_path)
     texts = [str(fault) for fault in faults]

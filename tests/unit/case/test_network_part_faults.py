@@ -1,4 +1,4 @@
-"""Mistakes in bodies, floats, sheets and meshes of network cases: told at their place, before anything is run."""
+"""Mistakes in bodies, floats, sheets and meshes of network cases: reported at their place, before anything is run."""
 
 import pytest
 
@@ -73,7 +73,7 @@ def test_the_cases_that_the_mistakes_start_from_are_sound(tmp_path, text):
 
 
 @pytest.mark.parametrize(("text", "good", "bad", "where", "said", "helps"), FAULTS)
-def test_a_mistake_in_a_part_is_told_once_with_its_place(tmp_path, text, good, bad, where, said, helps):
+def test_a_mistake_in_a_part_is_reported_once_with_its_place(tmp_path, text, good, bad, where, said, helps):
     assert good in text
     with pytest.raises(CaseError) as raised:
         load_case(written(tmp_path, text.replace(good, bad)))
@@ -83,7 +83,7 @@ def test_a_mistake_in_a_part_is_told_once_with_its_place(tmp_path, text, good, b
 
 
 @pytest.mark.parametrize(("good", "bad", "where", "said"), WARNINGS)
-def test_what_sinks_is_told(tmp_path, good, bad, where, said):
+def test_what_sinks_is_reported(tmp_path, good, bad, where, said):
     warnings = load_case(written(tmp_path, BODY.replace(good, bad))).warnings
     assert [item.path for item in warnings] == [where]
     assert said in warnings[0].message

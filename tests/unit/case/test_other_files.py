@@ -1,4 +1,4 @@
-"""A file of another command, given to ``moyai run`` or ``check``, is told which command reads it."""
+"""A file of another command, given to ``moyai run`` or ``check``, is refused with the command that reads it."""
 
 import pytest
 

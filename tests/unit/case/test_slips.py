@@ -128,7 +128,7 @@ def test_the_page_of_ranges_is_up_to_date(request):
 
 
 @pytest.mark.slow
-def test_every_fifth_slip_of_a_thousand_in_the_templates_is_told():
+def test_every_fifth_slip_of_a_thousand_in_the_templates_is_reported():
     """A sample of the measure of ``slips.py``; the number of the first one is drawn from the file's own length."""
     found: list[slips.Slip] = []
     for kind in slips.TEMPLATES:
@@ -142,14 +142,14 @@ def test_every_fifth_slip_of_a_thousand_in_the_templates_is_told():
 
 
 @pytest.mark.slow
-def test_slips_in_designs_that_the_ranges_did_not_see_are_told():
+def test_slips_in_designs_that_the_ranges_did_not_see_are_reported():
     found = [slip for name, text, folder in slips.designs() for slip in slips.slips(name, text, folder)]
     assert {slip.outcome for slip in found} <= {"stopped", "warned", "silent"}
     assert sum(slip.reported for slip in found) >= 0.8 * len(found), slips.table(found)
 
 
 @pytest.mark.slow
-def test_four_of_five_slips_of_a_thousand_are_told():
+def test_four_of_five_slips_of_a_thousand_are_reported():
     found = [slip for name, text, folder in slips.sources() for slip in slips.slips(name, text, folder, every=2)]
     print(slips.table(found))
     assert {slip.outcome for slip in found} <= {"stopped", "warned", "silent"}

@@ -139,7 +139,7 @@ def test_anchors_aliases_and_merges(scanner):
         ("'': 1\n", "1:1", "a key is missing before ':'"),
     ],
 )
-def test_syntax_faults_are_told_in_plain_words(scanner, text, place, words):
+def test_syntax_faults_are_reported_in_plain_words(scanner, text, place, words):
     (fault,) = faults_of(text)
     assert fault.startswith(f"case.yaml:{place}: ")
     assert words in fault

@@ -174,7 +174,7 @@ def test_run_from_python_takes_the_same_road(case):
 
 
 @pytest.mark.parametrize("place", ["file", "below a file"])
-def test_unwritable_output_is_told_before_the_work_starts(case, tmp_path, monkeypatch, place):
+def test_unwritable_output_is_reported_before_the_work_starts(case, tmp_path, monkeypatch, place):
     def never(*arguments):
         raise AssertionError("the work was started")
 

@@ -87,7 +87,7 @@ def test_a_deck_runs_with_the_motion_of_a_coupled_point(deck, tmp_path):
     (tmp_path / "surge.csv").write_text("time, x, y, z\n" + rows, encoding="utf-8")
     done = invoke("run", deck, "--motion", f"7={tmp_path / 'surge.csv'}", "-o", tmp_path / "out", "--json")
     record = json.loads(done.stdout)
-    # the motion begins at 0.3 m/s out of rest: that jerk is told apart, and the peak after it carries its band
+    # the motion begins at 0.3 m/s out of rest: that jerk is distinguished, and the peak after it carries its band
     assert record["status"] == "converged", done.output
     highest, start = record["key_figures"][:2]
     assert "twice the segments" in highest["detail"]

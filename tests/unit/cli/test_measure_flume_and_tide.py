@@ -54,8 +54,8 @@ def test_planted_waves_of_a_flume_come_back(flume_file):
     k = found["wave_number"]
     turn = (behind["phase_deg"] - math.degrees(k * (GAUGES["D"] - MODEL)) + 180.0) % 360.0 - 180.0
     assert abs(turn) < 1.0
-    told = flume(flume_file, start=("--wavemaker", "paddle"))
-    assert told.exit_code == 0 and "reflection 0.3" in told.output
+    reported = flume(flume_file, start=("--wavemaker", "paddle"))
+    assert reported.exit_code == 0 and "reflection 0.3" in reported.output
 
 
 @pytest.mark.parametrize(

@@ -118,7 +118,7 @@ def test_a_row_comes_as_its_case_ends():
     assert [outcome.passed for outcome in outcomes] == [True, True]
 
 
-def test_progress_is_told():
+def test_progress_is_reported():
     reported = []
     compute([("circle", GOOD), ("circle", WRONG)], lambda what, done, total: reported.append((done, total)))
     assert reported == [(0, 2), (1, 2), (2, 2)]

@@ -19,7 +19,7 @@ from moyai.core.validation import ValidationCase
 pytest.importorskip("sphinx")
 DOCS = Path(__file__).resolve().parents[3] / "docs"
 sys.path.insert(0, str(DOCS))
-import held_by_tests  # noqa: E402 - stands beside the pages
+import held_by_tests  # noqa: E402 - stands next to the pages
 import measured_speed  # noqa: E402
 import validation_curves  # noqa: E402
 import validation_results  # noqa: E402

@@ -1,4 +1,4 @@
-"""A number known as a bound alone is judged beside a worse one that is known, and what varies more beside both."""
+"""A number known as a bound alone is judged next to a worse one that is known, and what varies more next to both."""
 
 from dataclasses import replace
 

@@ -30,7 +30,7 @@ def test_an_inner_kernel_of_another_file_belongs_to_the_key(monkeypatch: pytest.
     assert after[1] == before[1]
 
 
-def test_the_first_compilation_is_told_once() -> None:
+def test_the_first_compilation_is_reported_once() -> None:
     calls = []
 
     @njit(error_model="numpy")
@@ -87,7 +87,7 @@ def test_a_fault_in_a_part_comes_through() -> None:
         call(1.0)
 
 
-def test_types_that_a_part_cannot_take_are_told() -> None:
+def test_types_that_a_part_cannot_take_are_reported() -> None:
     @njit()
     def part(x):
         return x.no_such_thing

@@ -99,7 +99,7 @@ class Options:
     held: tuple[bool, bool] | None = None
 
 
-def test_a_line_that_fails_is_told_by_true_or_false_at_which_end() -> None:
+def test_a_line_that_fails_is_reported_by_true_or_false_at_which_end() -> None:
     with pytest.raises(InputError, match="at_end: 'start' is neither true nor false"):
         LineFailure("line", at_end="start")  # type: ignore[arg-type]
 

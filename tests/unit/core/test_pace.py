@@ -29,7 +29,7 @@ def test_the_time_left_is_known_from_the_second_report_and_runs_down() -> None:
     assert pace.line() == "time domain: 20 %, 2 min 30 s left (running for 50 s)"
 
 
-def test_stages_in_each_other_are_told_and_ended_ones_are_not() -> None:
+def test_stages_in_each_other_are_reported_and_ended_ones_are_not() -> None:
     clock = Clock()
     pace = Pace(clock)
     assert pace.line() == ""
@@ -69,7 +69,7 @@ def test_work_that_is_not_done_takes_some_time():
     assert pace.left("runs") > 10.0
 
 
-def test_rows_that_are_told_in_thousands_wait_by_their_thousands():
+def test_rows_that_are_reported_in_thousands_wait_by_their_thousands():
     """A report of half of 4,000 rows after 20 s, then 10 s of silence: some 20 s are left, not hours."""
     clock = Clock()
     pace = Pace(clock)

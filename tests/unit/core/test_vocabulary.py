@@ -49,7 +49,7 @@ def test_what_an_analysis_always_writes_is_missed() -> None:
     assert own.absent("/SWL/run", xr.Dataset({"a": 1.0})) == ()
     assert own.absent("/SWL/run", xr.Dataset({"b": 1.0}, attrs={"status": "not_converged"})) == ()
     assert own.absent("/SWL/run/frames", xr.Dataset({"b": 1.0})) == ()
-    with pytest.raises(VocabularyError, match="'a' is absent"):
+    with pytest.raises(VocabularyError, match="variable 'a' is absent"):
         own.close({"/SWL/run": xr.Dataset({"line_tension_maximum": ("line", [1.0])}, {"line": ["sea"]})})
     with pytest.raises(ValueError, match="b must always"):
         Vocabulary.of("test", {}, always={"/run": ("b",)})

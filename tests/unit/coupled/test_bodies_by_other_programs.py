@@ -227,7 +227,7 @@ def test_a_body_that_snaps_a_line_meets_the_reflected_waves(ratio) -> None:
     assert errors[2] < 0.012
 
 
-def test_rows_off_the_pace_of_the_wave_are_told() -> None:
+def test_rows_off_the_pace_of_the_wave_are_reported() -> None:
     _, found = thrown_against_a_line(1.0, 50, 12.5)
     notice = next(item for item in found.notices if item.code == "wave-front")
     assert "0.78 of the pace" in notice.message and "rows that are a multiple" in notice.remedy

@@ -35,7 +35,7 @@ def model_of(random, mooring=None, memory=None):
     ("seed", "kept"), [(0, 0), (1, 1), *(pytest.param(*pair, marks=pytest.mark.slow) for pair in ((0, 1), (1, 0)))]
 )
 def test_body_on_springs_moves_as_in_the_time_domain_of_the_breakwater(seed: int, kept: int) -> None:
-    """Random memory, forcing and springs; ``kept`` springs stay quasi-static beside the network."""
+    """Random memory, forcing and springs; ``kept`` springs stay quasi-static next to the network."""
     random = np.random.default_rng(seed)
     springs = [
         SpringLine(

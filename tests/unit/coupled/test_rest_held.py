@@ -75,7 +75,7 @@ def test_motions_that_are_held_stay(held):
 
 
 @pytest.mark.slow
-def test_a_body_that_sinks_is_told_at_once():
+def test_a_body_that_sinks_is_reported_at_once():
     made = BodyAssembly(WATER.density)
     made.add(RodPart((0.0, 0.0, -1.0), (0.0, 0.0, 1.0), 2.7, 25e3, 1.0, 1.0, 0.8, 0.8))
     body = made.body("block", (0.0, 0.0, -5.0), rotation_matrix((0.0, 0.0, 0.0)), {"eye": np.array([0.0, 0.0, -1.0])})

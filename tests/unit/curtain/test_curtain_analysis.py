@@ -233,7 +233,7 @@ def test_notices_name_their_water_level_where_it_matters(tmp_path):
     messages = [notice.message for notice in run(problem_of(tmp_path, text)).notices]
     blocked = [message for message in messages if "blockage d/h" in message]
     assert [message.split(":")[0] for message in blocked] == ["HWL", "LWL"]
-    # what holds at all levels is told once
+    # what holds at all levels is reported once
     assert sum("models B and AB" in message for message in messages) == 1
     assert not any(message.startswith(("HWL: models B", "LWL: models B")) for message in messages)
 

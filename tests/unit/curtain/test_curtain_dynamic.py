@@ -353,7 +353,7 @@ def test_runs_tell_what_they_did_not_reach() -> None:
 
 @pytest.mark.slow
 def test_a_skirt_stiff_along_the_span_starts_unstrained_only_when_flat() -> None:
-    """Flat: the same peak on two meshes. Bulging: what its arc adds to the cables strains it, told as an error."""
+    """Flat: the same peak on two meshes. Bulging: what its arc adds to the cables strains it, reported as an error."""
     stiff = {**BASE, "span_stiffness": 2e4, "shear_stiffness": 8e3}
     flat = CurtainSpan(**{**stiff, "chord": 0.15})  # type: ignore[arg-type]
     runs = [snap(flat, Mesh(*cells, cable_viscosity=0.0036, skirt_damping_time=1e-5)) for cells in ((12, 4), (24, 8))]
@@ -384,7 +384,7 @@ def test_a_snap_is_run_until_it_is_past_its_peak() -> None:
 
 
 @pytest.mark.slow
-def test_a_peak_of_the_start_is_told_apart_from_those_of_the_sea() -> None:
+def test_a_peak_of_the_start_is_distinguished_from_those_of_the_sea() -> None:
     """A snap, then little: with the waves of a sea its first peak is one of the start; counted later it is not."""
     run = snap(CurtainSpan(**BASE), Mesh(8, 4), 4.0)  # type: ignore[arg-type]
     sea = replace(run, flow=Flow(waves=RegularWave(0.01, 2.0, 0.0, FLUME).components()))

@@ -198,7 +198,7 @@ def test_too_many_periods_are_refused(tmp_path: Path) -> None:
 
 
 @pytest.mark.slow
-def test_settling_waves_are_told(tmp_path: Path) -> None:
+def test_settling_waves_are_reported(tmp_path: Path) -> None:
     """The published example: 16 kN while the waves come up, then less from period to period."""
     text = CASE.replace(
         "structure:", "waves: {name: swell, kind: regular, height: 0.8 m, periods: [5 s], heading_deg: 0}\nstructure:"
@@ -232,7 +232,7 @@ def test_a_stopped_run_is_kept(tmp_path: Path, part: float) -> None:
     assert run.attrs["status"] == ("interrupted" if part < 1.0 else "converged")
     assert run.sizes["time"] > 100 and float(table["both_cables_tension_maximum"][0]) >= 0.0
     assert any(notice.code == "dynamic-interrupted" for notice in result.notices)
-    # models of an impact stand beside the span where there is a current; a run that did not end is missed nothing of
+    # models of an impact stand next to the span where there is a current; a run that did not end is missed nothing of
     assert part < 1.0 or unmissed(result) == {"dynamic_model_tension"}
 
 
@@ -289,7 +289,7 @@ def test_a_run_that_had_to_stop_gives_no_peak(tmp_path: Path, monkeypatch: pytes
 
 
 @pytest.mark.slow
-def test_the_start_of_an_irregular_sea_is_told(tmp_path: Path) -> None:
+def test_the_start_of_an_irregular_sea_is_reported(tmp_path: Path) -> None:
     """A strong current that comes up in one period pulls harder than the small sea after it."""
     sea = (
         "waves: {name: sea, kind: jonswap, significant_height: 0.1 m, significant_period: 3 s, peak_enhancement: 3.3,"
@@ -323,7 +323,7 @@ def test_masses_that_cannot_be_are_found_before_the_run(tmp_path: Path, old: str
 
 
 @pytest.mark.slow
-def test_cables_that_stretch_as_no_rope_are_told(tmp_path: Path) -> None:
+def test_cables_that_stretch_as_no_rope_are_reported(tmp_path: Path) -> None:
     """Newtons for kilonewtons, without a breaking load that the check could compare them with."""
     text = changed(CASE, {"400 kN": "400 N", "cells_down: 4}": "cells_down: 4, sensitivity: false, duration: 15 s}"})
     result = moyai.run(moyai.load_case(write(tmp_path, text)))

@@ -135,7 +135,7 @@ def test_waves_find_sides_and_thresholds(flume_in_waves):
 
 
 @pytest.mark.slow
-def test_record_of_a_flume_lies_beside_the_models(flume, tmp_path):
+def test_record_of_a_flume_lies_next_to_the_models(flume, tmp_path):
     """A made record: its impact is found above the plateau, per cable and summed, each model is held against it."""
     from moyai.sea.water import Water
     from moyai.structures.curtain.impact.cable import Impact

@@ -94,7 +94,7 @@ def test_a_hump_inside_a_range_that_holds_at_its_end_is_found():
     assert found.crossings == pytest.approx((0.3375, 0.4625), rel=1e-6)
 
 
-def test_nothing_found_and_nothing_held_are_told_apart():
+def test_nothing_found_and_nothing_held_are_distinguished():
     free = search(lambda x: (0.2, "part"), 3.0)
     assert (free.value, free.governing, free.reached, free.highest) == (3.0, NOT_REACHED, False, 3.0)
     none = search(lambda x: (1.7, "effective depth"), 3.0)
@@ -182,7 +182,7 @@ def test_joints_that_bear_more_than_a_span_set_no_length():
     assert joint_spacing(134.0, Strength(180e3, 3.0), 1000.0) == pytest.approx(447.76, abs=0.01)
 
 
-def test_the_period_beside_a_limit_height_is_that_of_the_height_printed() -> None:
+def test_the_period_next_to_a_limit_height_is_that_of_the_height_printed() -> None:
     """The height that is held at the unfavourable end is printed; its period follows from it by T = c sqrt(H)."""
     table = xr.Dataset(
         {"design_limit_height": 0.64, "design_limit_low": 0.36},

@@ -1,4 +1,4 @@
-"""Curtains in oblique currents: the section that is told, and the flow under the toe."""
+"""Curtains in oblique currents: the section that is reported, and the flow under the toe."""
 
 from __future__ import annotations
 
@@ -30,7 +30,7 @@ CURTAIN = HangingCurtain(
 
 
 def test_section_is_where_the_span_faces_the_current_most() -> None:
-    """A tight span has no part across a very oblique current: told is its most loaded section, solved by itself."""
+    """A tight span has no part across a very oblique current: its most loaded section alone is reported."""
     rng = np.random.default_rng(63)
     for _ in range(4):
         speed, turn = rng.uniform(0.2, 0.4), rng.choice([-1.0, 1.0]) * rng.uniform(0.7, 1.2)

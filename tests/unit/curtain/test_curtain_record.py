@@ -33,7 +33,7 @@ def test_ratios_are_model_over_record():
     assert abs(math.log(found.nearest.tension_ratio)) == best
 
 
-def test_record_outside_all_models_is_told():
+def test_record_outside_all_models_is_reported():
     table = compare_models(flume(), memory=False)
     for impact, word in ((1.0, "outside"), (1e4, "outside")):
         found = compare_record(table, impact_tension=impact, rise_time=math.nan)
@@ -79,7 +79,7 @@ def test_finite_depth_raises_all_masses():
 
 
 def test_stiff_skirts_cost_nothing_and_meet_the_rigid_limit():
-    """From 1e2 to 1e12 N/m: monotone up to model A with the arc's mass; the rigid limit is told."""
+    """From 1e2 to 1e12 N/m: monotone up to model A with the arc's mass; the rigid limit is reported."""
     impact = flume(39000.0)
     stiffness = [3e3, 2e4, 1e5, 1e6, 1e7, 1e9, 1e12]
     found = [cable_and_skirt_impact(impact, BulgedSkirt(0.15, 0.135, value)) for value in stiffness]

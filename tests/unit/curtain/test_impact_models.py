@@ -231,7 +231,7 @@ def test_bad_input_is_refused_in_words(make, word):
         make()
 
 
-def test_least_chord_is_the_one_that_is_told() -> None:
+def test_least_chord_is_the_one_that_is_reported() -> None:
     """The allowed range of the message is where a skirt is accepted."""
     with pytest.raises(InputError) as caught:
         BulgedSkirt(5.0, 3.0, 1e5)

@@ -93,7 +93,7 @@ def test_an_unknown_breaking_load_does_not_pass():
         (lambda: endurance_data("string"), "studless_chain"),
     ],
 )
-def test_slips_are_told(call, word):
+def test_slips_are_reported(call, word):
     with pytest.raises(InputError, match=word):
         call()
 

@@ -81,7 +81,7 @@ def test_life_is_the_inverse_of_the_mean_damage():
     assert life([0.0], [1.0], 10800.0) == math.inf
 
 
-def test_bad_input_is_told():
+def test_bad_input_is_reported():
     with pytest.raises(InputError, match="finite"):
         count_cycles([1.0, math.nan, 2.0, 3.0])
     with pytest.raises(InputError, match="zero or more"):

@@ -142,7 +142,7 @@ def test_spring_in_series_keeps_the_cauchy_number() -> None:
     assert mass_to_add(8.0, 0.01, scale, "kg/m") == pytest.approx(8.0 / 400.0 / 1.025 - 0.01)
 
 
-def test_models_that_are_too_small_are_told() -> None:
+def test_models_that_are_too_small_are_reported() -> None:
     scale = Scale(25.0, 1.0, 1.0)
     codes = {note.code for note in check_model(scale, period=1.5, water_depth=0.4, reynolds=200.0)}
     assert codes == {"similarity-period", "similarity-depth", "similarity-reynolds"}

@@ -63,7 +63,7 @@ FAULTS: dict[str, tuple[Callable[[], object], str]] = {
 
 
 @pytest.mark.parametrize("name", FAULTS)
-def test_faults_are_told_in_one_sentence(name: str) -> None:
+def test_faults_are_reported_in_one_sentence(name: str) -> None:
     make, words = FAULTS[name]
     with pytest.raises(InputError, match=words):
         make()
@@ -80,7 +80,7 @@ def two_sheets(**other: object) -> NetworkBuilder:
 
 
 def test_what_one_of_two_sheets_leaves_out_has_its_default() -> None:
-    """It was 0: a sheet beside one with a ``flow_factor`` lost all its drag."""
+    """It was 0: a sheet next to one with a ``flow_factor`` lost all its drag."""
     sheets = two_sheets(flow_factor=0.4, pressure=3.0).build().sheets
     assert sheets is not None
     assert np.array_equal(sheets.flow_factor, [1.0, 1.0, 0.4, 0.4])

@@ -217,7 +217,7 @@ def test_a_ring_buckles_where_levy_says() -> None:
     assert lowest[0][0] > -1e-3 * scale and lowest[1][0] < -5e-3 * scale
 
 
-def test_faults_of_rings_are_told() -> None:
+def test_faults_of_rings_are_reported() -> None:
     rest = circle(8, 1.0)
     with pytest.raises(InputError, match="node"):
         Ring("r", np.array([0, 1, 2]), rest[:3], 1.0, 1.0)

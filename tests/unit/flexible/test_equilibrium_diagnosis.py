@@ -66,7 +66,7 @@ def loose(kind: BarType, bed: Bed | None = None, **end: float) -> Network:
 
 
 @pytest.mark.parametrize("volume", [0.0, 0.01, 0.17])
-def test_what_sinks_for_ever_is_told_at_once(volume: float) -> None:
+def test_what_sinks_for_ever_is_reported_at_once(volume: float) -> None:
     weight = 9.81 * (200.0 - 1025.0 * (volume + 10.0 * math.pi / 4.0 * 0.04**2))
     with pytest.raises(
         ConvergenceError, match=f"weigh {spoken(weight, 'N')} more than their buoyancy and sink without end"
@@ -74,7 +74,7 @@ def test_what_sinks_for_ever_is_told_at_once(volume: float) -> None:
         solve_equilibrium(loose(CHAIN, volume=volume, height=0.5))
 
 
-def test_a_float_that_lifts_everything_is_told_at_once() -> None:
+def test_a_float_that_lifts_everything_is_reported_at_once() -> None:
     lift = 9.81 * (1025.0 * 0.5 - 200.0)
     with pytest.raises(
         ConvergenceError, match=rf"point 'one'\) lifts all 6 nodes attached to it by {spoken(lift, 'N')}"
@@ -85,7 +85,7 @@ def test_a_float_that_lifts_everything_is_told_at_once() -> None:
 
 
 @pytest.mark.slow
-def test_what_a_current_carries_away_is_told() -> None:
+def test_what_a_current_carries_away_is_reported() -> None:
     with pytest.raises(ConvergenceError, match="along x and y: the current moves them away"):
         solve_equilibrium(loose(CHAIN, Bed(-30.0, 1e5)), flow=Flow((0.3, 1.0, 0.0)))
     assert solve_equilibrium(loose(CHAIN, Bed(-30.0, 1e5))).residual < 1e-9

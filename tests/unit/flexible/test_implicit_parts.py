@@ -357,7 +357,7 @@ def test_modes_know_the_added_mass_of_sections(seed: int) -> None:
     assert np.all(whole <= bare) and whole.sum() < 0.8 * bare.sum()
 
 
-def test_what_the_implicit_schemes_do_not_march_is_told() -> None:
+def test_what_the_implicit_schemes_do_not_march_is_reported() -> None:
     network, _ = small_network(np.random.default_rng(1), True)
     with pytest.raises(InputError, match="does not march sections of added mass"):
         simulate(network, duration=1.0, output_step=0.1, method="tr_bdf2")

@@ -73,7 +73,7 @@ def test_the_number_of_steps_counts_those_of_every_length():
     assert given.steps >= round(3.0 / history.step) and given.steps > history.steps
 
 
-def test_a_step_by_hand_that_drag_outruns_within_a_row_is_told():
+def test_a_step_by_hand_that_drag_outruns_within_a_row_is_reported():
     network, motion, flow = _strained(0)
     usual = simulate(network, motion, duration=1.0, output_step=1.0, flow=flow)
     coarse = 1.0 / usual.steps * 3.0

@@ -209,7 +209,7 @@ def test_rest_of_a_net_in_a_current_stays_at_rest() -> None:
     assert each[:, 0].sum() > 0.0 and force.sum() == pytest.approx(each.sum())
 
 
-def test_faults_of_panels_are_told() -> None:
+def test_faults_of_panels_are_reported() -> None:
     law = PanelLaw.constant("plate", 1.0)
     with pytest.raises(InputError, match="same node"):
         NetPanels(np.array([[0, 1, 1, 2]]), (law,))

@@ -275,7 +275,7 @@ def test_momentum_of_a_loose_network_changes_with_its_weight_alone(seed, method)
         assert turn(history.final) == pytest.approx(turn(begin), rel=2e-3, abs=2e-3 * np.max(np.abs(turn(begin))))
 
 
-def test_a_blow_up_is_stopped_and_told():
+def test_a_blow_up_is_stopped_and_reported():
     network = rope(segments=10, span=(41.0, 0.0, 0.0))
     limit = ExplicitRun(network, {"end": still()}, Flow(), State.at_rest(network), safety=1.0, load_steps=1).limit()[0]
     begin = State.at_rest(network)

@@ -1,4 +1,4 @@
-"""Networks of every kind find rest; what has none is told; the last good state of a run is on disk."""
+"""Networks of every kind find rest; what has none is reported; the last good state of a run is on disk."""
 
 import math
 

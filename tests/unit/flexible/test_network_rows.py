@@ -98,7 +98,7 @@ def _snatched(segments=8):
     return builder.build(), {"top": Motion.harmonic((0.0, 0.0, 0.8), 3.0, duration=4.0)}
 
 
-def test_a_step_that_is_too_long_is_told_even_when_the_run_ends():
+def test_a_step_that_is_too_long_is_reported_even_when_the_run_ends():
     network, motions = _snatched()
     sound = simulate(network, motions, duration=3.0, output_step=0.05)
     assert not [notice for notice in sound.notices if notice.code == "step-not-stable"]

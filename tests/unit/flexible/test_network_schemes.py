@@ -333,7 +333,7 @@ def test_small_float_rides_long_waves():
     assert results[1] == pytest.approx(results[0], abs=0.01 * amplitude)
 
 
-def test_wave_front_is_told():
+def test_wave_front_is_reported():
     builder = NetworkBuilder(NO_GRAVITY)
     builder.fixed("wall", (0.0, 0.0, DEEP))
     builder.free("mass", (50.0, 0.0, DEEP), mass=300.0)

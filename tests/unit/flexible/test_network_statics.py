@@ -123,7 +123,7 @@ def test_float_settles_at_its_draught():
     assert volume * 1025.0 == pytest.approx(200.0, rel=1e-3)
 
 
-def test_what_cannot_rest_is_told():
+def test_what_cannot_rest_is_reported():
     builder = NetworkBuilder(Water(math.inf, 1000.0, 9.81))
     builder.free("one", (0.0, 0.0, -5.0), mass=10.0)
     builder.free("two", (1.0, 0.0, -5.0), mass=10.0)

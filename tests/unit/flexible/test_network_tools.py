@@ -61,7 +61,7 @@ def test_type_from_the_catalogue():
         (lambda b: b.net("n", np.zeros((1, 2, 3)), ROPE, lengths=(1.0, 1.0)), "two or more each"),
     ],
 )
-def test_faults_of_a_model_are_told(spoil, words):
+def test_faults_of_a_model_are_reported(spoil, words):
     builder = NetworkBuilder(WATER)
     builder.fixed("a", (0.0, 0.0, -10.0))
     builder.fixed("b", (1.0, 0.0, -10.0))
@@ -71,7 +71,7 @@ def test_faults_of_a_model_are_told(spoil, words):
         builder.build()
 
 
-def test_faults_of_arrays_are_told():
+def test_faults_of_arrays_are_reported():
     place = np.array([[0.0, 0.0, -1.0], [1.0, 0.0, -1.0]])
     with pytest.raises(InputError, match="length 0 m"):
         Bars([0], [1], [0.0], [0], (ROPE,))

@@ -1,4 +1,4 @@
-"""What the engine looks at beside its result, what it refuses instead of cutting, energy of random chains."""
+"""What the engine looks at next to its result, what it refuses instead of cutting, energy of random chains."""
 
 import math
 from dataclasses import replace
@@ -169,7 +169,7 @@ def _laid(segments, amplitude=1.0):
     return simulate(network, motion, duration=21.0, output_step=0.5, start=start, keep_nodes=[0])
 
 
-def test_fronts_of_landing_lumps_are_told_and_gone_on_a_finer_mesh():
+def test_fronts_of_landing_lumps_are_reported_and_gone_on_a_finer_mesh():
     coarse, fine, finer = (_laid(segments) for segments in (20, 80, 160))
     (notice,) = coarse.notices
     assert notice.code == "landing-front" and notice.severity == "warning" and "on the bed" in notice.message
@@ -179,7 +179,7 @@ def test_fronts_of_landing_lumps_are_told_and_gone_on_a_finer_mesh():
     assert tops[0] > 1.5 * tops[2]
 
 
-def test_a_peak_that_hangs_on_the_step_is_told_in_numbers():
+def test_a_peak_that_hangs_on_the_step_is_reported_in_numbers():
     (notice,) = PeakSensitivity(1000.0, 900.0, 980.0, 1010.0, 950.0, 1e-3).notices()
     for words in ("1 kN is 0.9 kN with half the step", "0.98 kN with bars of half", "12.0 %", "1.01 kN and 0.95 kN"):
         assert words in notice.message
@@ -242,7 +242,7 @@ def test_drag_in_still_water_only_takes_energy(seed):
     usual, often = (simulate(network, duration=1.0, output_step=0.02, load_steps=steps) for steps in (12, 1))
     assert usual.status == often.status == "converged"
     stored = usual.elastic_energy[0]
-    # beside drag the added mass that turns with its bars takes and gives
+    # next to drag the added mass that turns with its bars takes and gives
     assert np.diff(usual.work).max() < 0.05 * stored
     assert np.all(usual.kinetic_energy + usual.elastic_energy <= 1.001 * stored)
     assert usual.tension_peak.max() == pytest.approx(often.tension_peak.max(), rel=0.03)

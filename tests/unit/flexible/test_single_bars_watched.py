@@ -23,7 +23,7 @@ def _hung(random, viscosity):
     return builder, kind, length, stretched, mass
 
 
-def test_snaps_of_one_bar_are_told_because_they_hang_on_the_step():
+def test_snaps_of_one_bar_are_reported_because_they_hang_on_the_step():
     """A light end falls into a slack line of one bar: only few steps see the snap."""
     errors = []
     for seed in range(8):
@@ -42,7 +42,7 @@ def test_snaps_of_one_bar_are_told_because_they_hang_on_the_step():
 
 @pytest.mark.parametrize("seed", range(5))
 @pytest.mark.parametrize("method", ["explicit", "tr_bdf2"])
-def test_a_bar_that_is_pulled_slowly_is_not_told(seed, method):
+def test_a_bar_that_is_pulled_slowly_is_not_reported(seed, method):
     random = np.random.default_rng(seed)
     builder, kind, length, stretched, mass = _hung(random, 0.2)
     builder.free("end", (0.0, 0.0, -stretched), mass=mass)

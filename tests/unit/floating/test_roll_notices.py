@@ -1,4 +1,4 @@
-"""Roll beyond the waterline of linear restoring is told with its angle."""
+"""Roll beyond the waterline of linear restoring is reported with its angle."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Bodies and rods of MoorDyn decks: read, written, made into rigid bodies; what is wrong with them is told."""
+"""Bodies and rods of MoorDyn decks: read, written, made into rigid bodies; what is wrong with them is reported."""
 
 import numpy as np
 import pytest
@@ -115,7 +115,7 @@ def test_parts_make_one_body_as_in_moordyn(tmp_path):
         ("2   Body1  1 ", "2   Body8  1 ", 27, ("body 8, which is not there",)),
     ],
 )  # fmt: skip
-def test_one_mistake_is_told_with_its_line(tmp_path, old, new, line, words):
+def test_one_mistake_is_reported_with_its_line(tmp_path, old, new, line, words):
     assert old in DECK
     with pytest.raises(CaseError) as caught:
         deck_of(tmp_path, DECK.replace(old, new, 1))

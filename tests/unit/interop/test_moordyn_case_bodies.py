@@ -102,7 +102,7 @@ def test_a_deck_of_rods_alone_runs_from_the_command(tmp_path):
     assert "Motion of rod 1" in page
 
 
-def test_points_under_the_bed_are_told_with_the_line_of_the_deck(tmp_path):
+def test_points_under_the_bed_are_reported_with_the_line_of_the_deck(tmp_path):
     file = tmp_path / "deck.txt"
     text = random_deck(2).replace("1 Fixed 0 0 -60", "1 Fixed 0 0 -61")
     file.write_text(text)
@@ -113,7 +113,7 @@ def test_points_under_the_bed_are_told_with_the_line_of_the_deck(tmp_path):
         case_text(read_deck(file))
 
 
-def test_files_of_motions_that_are_not_there_are_told(tmp_path):
+def test_files_of_motions_that_are_not_there_are_reported(tmp_path):
     file = tmp_path / "deck.txt"
     file.write_text(random_deck(2))
     arguments = ["run", str(file), "--motion", f"body2={tmp_path / 'none.csv'}", "-o", str(tmp_path / "out")]

@@ -97,7 +97,7 @@ FAULTS = {
 
 
 @pytest.mark.parametrize("slip", list(FAULTS))
-def test_slips_of_a_profile_are_told_with_their_line(tmp_path, slip):
+def test_slips_of_a_profile_are_reported_with_their_line(tmp_path, slip):
     old, new, words = FAULTS[slip]
     (tmp_path / "deck.txt").write_text(DECK.replace("KIND", "2"), encoding="utf-8")
     (tmp_path / "current_profile_dynamic.txt").write_text(PROFILE.replace(old, new), encoding="utf-8")

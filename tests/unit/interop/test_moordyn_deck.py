@@ -147,7 +147,7 @@ def test_line_ends_and_foreign_letters(tmp_path):
         ("--- POINTS ---", "--- LINE TYPES ---", 7, ("a second time",)),
     ],
 )  # fmt: skip
-def test_one_mistake_is_told_with_its_line(tmp_path, old, new, line, words):
+def test_one_mistake_is_reported_with_its_line(tmp_path, old, new, line, words):
     assert old in VERSION_2
     faults = faults_of(tmp_path, VERSION_2.replace(old, new, 1))
     at_line = [str(fault) for fault in faults if fault.line == line and fault.file == "deck.txt"]
@@ -166,7 +166,7 @@ def test_tabs_are_blanks(tmp_path):
     assert read_deck(written(tmp_path, text)) == read_deck(written(tmp_path, VERSION_2, "plain.txt"))
 
 
-def test_bytes_that_are_no_text_are_told(tmp_path):
+def test_bytes_that_are_no_text_are_reported(tmp_path):
     (tmp_path / "deck.txt").write_bytes(b"--- LINES ---\n\x00\x01\x02")
     with pytest.raises(InputError, match="no text file"):
         read_deck(tmp_path / "deck.txt")
@@ -184,8 +184,8 @@ def test_bytes_that_are_no_text_are_told(tmp_path):
         ("AttachB  UnstrLen", "UnstrLen AttachC", 14, "unknown column 'AttachC'"),
     ],
 )
-def test_one_slip_is_told_once(tmp_path, old, new, line, word):
-    """What follows from it, names and points that are not there, is not told as well."""
+def test_one_slip_is_reported_once(tmp_path, old, new, line, word):
+    """What follows from it, names and points that are not there, is not stated as well."""
     assert old in VERSION_2
     faults = faults_of(tmp_path, VERSION_2.replace(old, new, 1))
     said = "\n".join(map(str, faults))

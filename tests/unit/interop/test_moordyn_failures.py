@@ -71,7 +71,7 @@ def test_it_is_read_written_and_run(tmp_path):
         ("1 3 2 4 0", "1 3 9 4 0", "line 9 is not attached"),
     ],
 )
-def test_slips_are_told(tmp_path, old, new, words):
+def test_slips_are_reported(tmp_path, old, new, words):
     (tmp_path / "deck.txt").write_text(DECK.replace(old, new))
     with pytest.raises(CaseError) as caught:
         read_deck(tmp_path / "deck.txt")

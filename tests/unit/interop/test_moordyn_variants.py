@@ -146,11 +146,11 @@ def test_variants_are_read_as_the_deck(tmp_path, variant):
     assert found.outputs == wanted.outputs
     assert is_deck(tmp_path / "deck.txt")
     # what MoorDyn itself would not take so, or passes over, is said
-    told = {"ends of a name of their own": "by their place", "points by place": "by their place",
+    reported = {"ends of a name of their own": "by their place", "points by place": "by their place",
             "no units under the points": "would skip this row", "key before its value": "before its value",
             "options not known": "visualLevel (line 21), greeting (line 22)"}  # fmt: skip
-    if variant in told:
-        assert any(told[variant] in note for note in found.notes), found.notes
+    if variant in reported:
+        assert any(reported[variant] in note for note in found.notes), found.notes
 
 
 BODY_VARIANTS = {

@@ -71,7 +71,7 @@ def test_it_is_read_written_and_rests_on_its_static_stiffness(tmp_path):
         ("1.424e8|1.586e8|0.4", "SYROPE:a.dat|1e8|2", "no file a.dat next to the deck"),
     ],
 )
-def test_slips_are_told(tmp_path, old, new, words):
+def test_slips_are_reported(tmp_path, old, new, words):
     (tmp_path / "deck.txt").write_text(DECK.replace(old, new))
     with pytest.raises(CaseError) as caught:
         read_deck(tmp_path / "deck.txt")

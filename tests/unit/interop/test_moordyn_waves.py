@@ -108,7 +108,7 @@ def test_a_record_becomes_a_sea_of_the_case(tmp_path):
         ("5", {}, ("deck.txt:17", "kinematics at the nodes", "7: wave_frequencies.txt")),
     ],
 )  # fmt: skip
-def test_mistakes_are_told_with_their_place(tmp_path, kind, files, words):
+def test_mistakes_are_reported_with_their_place(tmp_path, kind, files, words):
     with pytest.raises(CaseError) as caught:
         deck_of(tmp_path, kind, files)
     said = "\n".join(map(str, caught.value.faults))
@@ -158,7 +158,7 @@ def test_a_case_is_written_with_its_current_and_its_sea(tmp_path):
     assert any("current_profile.txt" in note for note in deck.notes)
 
 
-def test_several_seas_are_not_written_and_told(tmp_path):
+def test_several_seas_are_not_written_and_reported(tmp_path):
     deck = deck_from(tmp_path, "{kind: regular, height: 2, periods: [6, 8], heading_deg: 0}")
     assert deck.waves is None
     assert any("2 seas, a deck one" in note for note in deck.notes)

@@ -11,7 +11,7 @@ import pytest
 pytest.importorskip("sphinx", reason="Sphinx is not installed")
 DOCS = Path(__file__).resolve().parents[3] / "docs"
 sys.path.insert(0, str(DOCS))
-import japanese_lines  # noqa: E402 - stands beside the pages
+import japanese_lines  # noqa: E402 - stands next to the pages
 
 JAPANESE = re.compile("[\u3040-\u30ff\u4e00-\u9fff]")
 TUTORIALS = (

@@ -58,7 +58,7 @@ def test_half_a_phrase_is_not_translated(translator: Translator) -> None:
     assert translator.text(unknown) == unknown
 
 
-def test_words_and_symbols_are_told_apart() -> None:
+def test_words_and_symbols_are_distinguished() -> None:
     assert latin_words("K_T of 3 kN at HWL, settings.time.step, results.nc, --json, JONSWAP, moyai") == ["of", "at"]
     assert latin_words("最大張力 3.4 kN、C_M -15～+15 %") == []
     assert latin_words("'criteria' and `dynamic`") == ["and"]

@@ -445,7 +445,7 @@ def test_a_power_law_current_reaches_the_bed_at_every_water_level():
         assert found.force[1, 0, 0] == pytest.approx(exact, rel=2e-3)
 
 
-def test_a_flat_orbit_is_told_whatever_its_tilt():
+def test_a_flat_orbit_is_reported_whatever_its_tilt():
     """Waves along a brace leaning at 45 degrees to them: both components equal, the orbit a line."""
     member = StraightMember((0, 0, -3.0), (0.4, 0.4, 0.2), sections.circle(0.1))
     case = problem(
@@ -474,7 +474,7 @@ def test_what_is_shown_without_circulation_is_what_the_inertia_force_shows():
     assert (fall > 0.0).all()
 
 
-def test_a_reduction_larger_than_the_inertia_is_told():
+def test_a_reduction_larger_than_the_inertia_is_reported():
     """On a plate standing in the waves the law takes more than the coefficient of 1.1 along its thin side."""
     case = problem(
         StraightMember((0, -2.0, -3.0), (0, 2.0, -3.0), sections.rectangle(0.5, 0.04)),

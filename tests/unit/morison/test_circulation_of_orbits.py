@@ -174,7 +174,7 @@ def test_field_around_a_circle_slips_circulates_and_fades(seed):
         circle_velocity([[0.0, 0.0]], radius, stream, gamma)
 
 
-def test_a_table_speaks_beside_a_law_of_no_strength():
+def test_a_table_speaks_next_to_a_law_of_no_strength():
     rule = law.CirculationLaw(0.0, "response", table=((1.0, 0.2), (4.0, 0.5)))
     assert rule.reduction([0.5, 1.0, 2.5, 4.0, 4.1], 1.3, 0.7, 0.0) == pytest.approx([0.0, 0.2, 0.35, 0.5, 0.0])
     other = law.CirculationLaw("otsuka", "response", table=((1.0, 0.2), (4.0, 0.5)))

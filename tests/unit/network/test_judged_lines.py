@@ -46,27 +46,27 @@ def _run(strength: str, *changes: tuple[str, str]) -> Result:
 
 
 @pytest.fixture(scope="module")
-def beside() -> Result:
+def combined() -> Result:
     return _run(", breaking_load: 4.85 kN")
 
 
-def test_the_mesh_of_a_line_counts_beside_another_that_governs(beside: Result) -> None:
+def test_the_mesh_of_a_line_counts_next_to_another_that_governs(combined: Result) -> None:
     """The cable of four segments has the lower utilisation and the wider band: it is judged as it is alone."""
     hoist = "    hoist: {start: top, end: load, type: wire, length: 20 m, segments: 12}\n"
     load = CASE[CASE.index("    top: {kind: driven") : CASE.index("    left: {kind")]
     alone = _run(", breaking_load: 4.85 kN", (hoist, ""), (load, ""))
     (own,) = [item for item in alone.headlines if item.name == "line_utilisation"]
-    found = {item.where: item for item in beside.headlines if item.name == "line_utilisation"}
+    found = {item.where: item for item in combined.headlines if item.name == "line_utilisation"}
     assert found["hoist, still water"].shown and not found["sag, still water"].shown
     band = found["sag, still water"].band
     assert own.band is not None and band is not None and own.band.high > 1.05 * own.value
     assert band.high == pytest.approx(own.band.high, rel=1e-3)
-    assert beside.verdict.outcome == alone.verdict.outcome == "does not hold"
-    assert beside.status == alone.status == "not_converged" and "'sag'" in beside.message
+    assert combined.verdict.outcome == alone.verdict.outcome == "does not hold"
+    assert combined.status == alone.status == "not_converged" and "'sag'" in combined.message
 
 
-def test_each_line_is_found_in_the_runs_that_check_the_mesh(beside: Result) -> None:
-    again = beside.tree["SWL/dynamic"].to_dataset()["line_tension_of_check"].isel(run=0)
+def test_each_line_is_found_in_the_runs_that_check_the_mesh(combined: Result) -> None:
+    again = combined.tree["SWL/dynamic"].to_dataset()["line_tension_of_check"].isel(run=0)
     hoist, sag = (again.sel(line=name) for name in ("hoist", "sag"))
     for line in (hoist, sag):
         assert line.sel(check="half_step") == pytest.approx(float(line.sel(check="the run itself")), rel=1e-3)

@@ -130,7 +130,7 @@ def test_rest_in_a_current_is_rest_in_the_run(tmp_path):
 
 
 @pytest.mark.slow
-def test_a_body_that_turns_over_is_told(tmp_path, monkeypatch):
+def test_a_body_that_turns_over_is_reported(tmp_path, monkeypatch):
     # nine more meshes of the chains say nothing of it
     monkeypatch.setattr("moyai.structures.network.run.with_finer_meshes", lambda rested, *_: rested)
     text = CASE.format(analyses="[statics]", more="", bars=2).replace("[0.05 m, 0, -0.1 m]", "[0, 0, 1.5 m]")

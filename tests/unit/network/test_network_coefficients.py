@@ -106,7 +106,7 @@ def test_a_box_of_a_case_moves_as_the_frequency_domain_says(tmp_path, period, he
     impedance = stiffness - omega**2 * (mass + at.added_mass.values) - 1j * omega * at.radiation_damping.values
     answer = 0.5e-3 * np.linalg.solve(impedance, at.excitation_force.sel(wave_direction=0.0).values)
     lean = series["solid_angle"].values[late, 0]
-    # with the yaw of 90 degrees the pitch of the body is told about its own axis all the same
+    # with the yaw of 90 degrees the pitch of the body is reported about its own axis all the same
     for values, mode in ((series["solid_position"].values[late, 0, 2], 2), (lean[:, 1], 4)):
         basis = np.column_stack([np.cos(omega * time[late]), np.sin(omega * time[late]), np.ones(late.sum())])
         cosine, sine, _ = np.linalg.lstsq(basis, values, rcond=None)[0]
@@ -130,11 +130,11 @@ def faults_of(path):
         ({"loads": ABSENT.format("hydrostar")}, "hydrostar"),
     ],
 )  # fmt: skip
-def test_coefficients_that_do_not_fit_are_told(tmp_path, changes, words) -> None:
+def test_coefficients_that_do_not_fit_are_reported(tmp_path, changes, words) -> None:
     assert words in faults_of(written(tmp_path, **changes))
 
 
-def test_a_draught_that_does_not_carry_the_body_is_told(tmp_path) -> None:
+def test_a_draught_that_does_not_carry_the_body_is_reported(tmp_path) -> None:
     warned = load_case(written(tmp_path, draught="5 cm")).warnings
     assert any("displaces 2 kg at 0.05 m and weighs 3.148 kg" in item.message for item in warned)
 
@@ -150,7 +150,7 @@ def test_waves_beyond_the_coefficients_stop_before_anything_is_run(tmp_path) -> 
 
 
 @pytest.mark.slow
-def test_another_depth_and_a_body_of_wave_length_are_told(tmp_path) -> None:
+def test_another_depth_and_a_body_of_wave_length_are_reported(tmp_path) -> None:
     path = written(tmp_path, memory="false", duration="0.5 s")
     text = path.read_text(encoding="utf-8")
     path.write_text(text.replace("water_depth: 0.5 m", "water_depth: 0.8 m"), encoding="utf-8")

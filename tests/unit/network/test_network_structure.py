@@ -235,7 +235,7 @@ def test_a_run_that_blows_up_says_so_and_keeps_its_last_good_state(tmp_path):
     assert float(summary["point_load_maximum"].max()) < 1e5
 
 
-def test_nothing_to_rest_on_is_told_and_nothing_is_run(tmp_path):
+def test_nothing_to_rest_on_is_reported_and_nothing_is_run(tmp_path):
     text = (
         SITE
         + f"""
@@ -393,7 +393,7 @@ def test_loads_on_points_hold_what_a_snap_pulls_between_two_rows(tmp_path):
 
 
 @pytest.mark.slow
-def test_a_peak_inside_a_line_is_told_apart_from_its_ends(tmp_path):
+def test_a_peak_inside_a_line_is_distinguished_from_its_ends(tmp_path):
     """Chain that a small buoy lifts and drops on the bed: what its nodes bear there is no load of anchor or buoy."""
     text = """moyai: 1
 title: Chain on a bed

@@ -44,7 +44,7 @@ def _run(speed: str, place: str, more: str = "", waves: str = "", check: str = "
 
 
 def _drift(place: np.ndarray, time: np.ndarray, *, period: float = 5.0, irregular: bool = False) -> Drift:
-    """Return the drift of one point that begins at rest, 10 m beside another that stands still."""
+    """Return the drift of one point that begins at rest, 10 m next to another that stands still."""
     both = np.zeros((time.size, 2, 3))
     both[:, 0, 0], both[:, 1, 1] = place, 10.0
     return drift_of(

@@ -138,12 +138,12 @@ def hull_with(kind, rng):
         "below": [PlateLine([(side, -0.4), (side - 0.3, low - 0.4)])],
         "wing": [PlateLine([(2, 0.5), (3.2, 0.5 + rng.uniform(-0.2, 0.2))])],
         "cross": [PlateLine([(0, 0), (0, low)]), PlateLine([(-0.7, low), (0.7, low)])],
-        "beside": [PlateLine([(3.5, 2.5), (3.2, low)])],
+        "alongside": [PlateLine([(3.5, 2.5), (3.2, low)])],
     }
     return BOX.with_plates(*plates[kind]).immersed(1.5)
 
 
-@pytest.mark.parametrize("kind", ["keel", "curtain", "below", "wing", "cross", "beside"])
+@pytest.mark.parametrize("kind", ["keel", "curtain", "below", "wing", "cross", "alongside"])
 def test_hulls_with_plates_keep_all_identities_and_both_drifts(kind):
     """Drift by pressure on the two faces with the suction of the edges against the momentum of the waves far off."""
     rng = np.random.default_rng(len(kind))
@@ -159,7 +159,7 @@ def test_hulls_with_plates_keep_all_identities_and_both_drifts(kind):
 
 
 def random_hull_with_plates(rng):
-    """Any hull with one to three plates on it, under it or beside it; None where they would cross."""
+    """Any hull with one to three plates on it, under it or next to it; None where they would cross."""
     beam = 10.0 ** rng.uniform(-0.3, 1.0)
     height = beam * rng.uniform(0.2, 1.0)
     hulls = (

@@ -133,7 +133,7 @@ def test_drift_refuses_what_it_cannot_do():
 @pytest.mark.parametrize("lid", [None, 0.1])
 @pytest.mark.parametrize("depth", [10.0, math.inf])
 def test_field_of_a_heeled_twin_pontoon(depth, lid):
-    """Two representations meet beside the hull; Laplace, bed, surface and far waves hold."""
+    """Two representations meet next to the hull; Laplace, bed, surface and far waves hold."""
     section = shapes.twin_pontoon(3.0, 3.0, 2.0, deck_thickness=0.5).immersed(2.0, 0.1)
     solution = solve(section, Water(depth, DENSITY, GRAVITY), [0.7, 1.6], modes=rigid_modes(CENTRE), lid=lid)
     motions = np.array([0.3, 0.2 - 0.1j, 0.05])

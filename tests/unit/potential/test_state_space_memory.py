@@ -82,7 +82,7 @@ def test_three_coupled_modes_with_a_steady_dashpot_of_rank_one(seed):
     s = solve_rectangle(beam, draught, water, plan.omega, centre=centre)
     arguments = (s.omega, s.radiation_damping, s.infinite_frequency_added_mass, [0.0, 1.0])
     memory = memory_functions(*arguments, start="even", added_mass=s.added_mass)
-    # heave pushes water out, and so does roll about a point beside the middle
+    # heave pushes water out, and so does roll about a point next to the middle
     steady = steady_damping([0.0, beam, beam * centre[0]], water)
     assert np.allclose(memory.steady_dashpot, steady, atol=1e-4 * np.abs(steady).max())
     states = fit_memory(memory)

@@ -39,8 +39,8 @@ def synthetic(
         error[n] = colour * error[n - 1] + math.sqrt(1.0 - colour**2) * error[n]
     size = 1000.0 * AREA * inertia * peak * omega
     phases = rng.uniform(0, 2 * math.pi, 2)
-    beside = np.cos(2 * omega * time + phases[0]) + 0.5 * np.cos(3 * omega * time + phases[1])
-    record = ForceRecord(time, force + size * (noise * error + harmonics * beside), velocity)
+    together = np.cos(2 * omega * time + phases[0]) + 0.5 * np.cos(3 * omega * time + phases[1])
+    record = ForceRecord(time, force + size * (noise * error + harmonics * together), velocity)
     return record, Setup(1000.0, AREA, (DIAMETER,), period=period, bootstrap=100)
 
 
@@ -128,15 +128,15 @@ def test_a_flow_that_turns_asks_for_the_vector_form_and_not_for_harmonics():
     assert "identification-drag-form" not in {notice.code for notice in identify(flat, setup).notices}
 
 
-def test_harmonics_bias_least_squares_unless_they_are_fitted_beside_it():
+def test_harmonics_bias_least_squares_unless_they_are_fitted_next_to_it():
     record, setup = synthetic(np.random.default_rng(3), harmonics=0.05)
     plain = identify(record, replace(setup, methods=("fourier", "least_squares")))
-    beside = identify(record, replace(setup, methods=("least_squares",), harmonics=(2, 3)))
+    together = identify(record, replace(setup, methods=("least_squares",), harmonics=(2, 3)))
     assert plain.fit("fourier").drag.value == pytest.approx(1.3, rel=1e-6)
     assert abs(plain.fit("least_squares").drag.value - 1.3) > 0.001
     assert "identification-harmonics" in {notice.code for notice in plain.notices}
-    assert beside.notices == ()
-    assert beside.fit("least_squares").drag.value == pytest.approx(1.3, rel=1e-6)
+    assert together.notices == ()
+    assert together.fit("least_squares").drag.value == pytest.approx(1.3, rel=1e-6)
 
 
 def test_one_degree_of_phase_matters_for_drag_and_not_for_inertia():
@@ -433,8 +433,8 @@ def test_noise_of_a_current_meter_does_not_lower_the_inertia_of_irregular_waves(
     )
     setup = Setup(1000.0, AREA, (DIAMETER,), regular=False, methods=("least_squares",), bootstrap=50)
     exact, found = (identify(ForceRecord(clock, force, given), setup) for given in (velocity, velocity + noise))
-    (told,) = [notice for notice in found.notices if notice.code == "velocity-noise"]
-    assert told.severity == "information" and not any(item.code == "velocity-noise" for item in exact.notices)
+    (reported,) = [notice for notice in found.notices if notice.code == "velocity-noise"]
+    assert reported.severity == "information" and not any(item.code == "velocity-noise" for item in exact.notices)
     assert exact.fits[0].inertia.value == pytest.approx(1.9, rel=1e-3)
     assert found.fits[0].inertia.value == pytest.approx(1.9, rel=0.01)
     assert found.fits[0].drag.value == pytest.approx(1.2, rel=0.01)
@@ -443,7 +443,7 @@ def test_noise_of_a_current_meter_does_not_lower_the_inertia_of_irregular_waves(
     assert (rate @ raw) / (raw @ raw) < 0.98
 
 
-def test_wrong_periods_and_irregular_records_are_refused_or_told():
+def test_wrong_periods_and_irregular_records_are_refused_or_reported():
     record, setup = two_components(np.random.default_rng(1))
     with pytest.raises(InputError, match=r"does not repeat itself every 0\.93 s"):
         identify(record, replace(setup, period=0.93))

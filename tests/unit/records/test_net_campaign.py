@@ -1,4 +1,4 @@
-"""``moyai measure nets``: from YAML and CSV to results, report and JSON; mistakes told with their place."""
+"""``moyai measure nets``: from YAML and CSV to results, report and JSON; mistakes reported with their place."""
 
 from __future__ import annotations
 
@@ -143,7 +143,7 @@ def test_text_output(folder):
         ("columns: {lift: lift, velocity: velocity}", "columns: {lift: lift}", "velocity or of the elevation"),
     ],
 )
-def test_mistakes_are_told_with_their_place(folder, tmp_path, old, new, words):
+def test_mistakes_are_reported_with_their_place(folder, tmp_path, old, new, words):
     import re
 
     place, _ = folder
@@ -177,7 +177,7 @@ def test_empty_and_short_records(folder, tmp_path):
         assert words in done.stderr, done.stderr
 
 
-def test_misprinted_rows_of_the_table_are_told(folder):
+def test_misprinted_rows_of_the_table_are_reported(folder):
     place, _ = folder
     text = reduced(place).replace("{name: E, table: E}", "{name: E, table: J}")
     path = place / "misprint.yaml"

@@ -185,7 +185,7 @@ def test_inertia_that_drag_hides_is_refused():
     assert notice.value > notice.limit == 0.5
 
 
-def test_wrong_speed_or_period_is_told():
+def test_wrong_speed_or_period_is_reported():
     rng = np.random.default_rng(33)
     net = specimen()
     run = wave_run(QUIET, TANK, net, 1.3, 2.0, name="w", height=0.08, period=1.25, rng=rng, speed=0.4)
@@ -212,7 +212,7 @@ def test_lift_is_reported():
 # --- the frame --------------------------------------------------------------------------------------------------------
 
 
-def test_frame_of_another_speed_is_scaled_and_told():
+def test_frame_of_another_speed_is_scaled_and_reported():
     rng = np.random.default_rng(41)
     net = specimen()
     runs = [towed_run(QUIET, TANK, None, 0.0, u, name=f"f{u}", rng=rng) for u in (0.2, 0.8)]
@@ -341,7 +341,7 @@ def test_tensions_of_a_cosine_and_of_a_slack_line():
         assert [item.code for item in notices] == ["cage-one-end"]
 
 
-def test_peaks_too_sharp_for_the_sampling_are_told():
+def test_peaks_too_sharp_for_the_sampling_are_reported():
     time = np.arange(0.0, 20.0, 0.05)
     snap = np.where((np.arange(400) % 20) == 7, 9.0, 0.01)
     _, notices = measure_tensions(CageRecord("c", time, (EndRecord("a", "b", snap),), 1.0))
@@ -493,7 +493,7 @@ def test_noise_of_the_meter_does_not_bias():
     assert np.mean(values) == pytest.approx(1.4, rel=0.01)
 
 
-def test_vibration_that_cannot_be_searched_is_told():
+def test_vibration_that_cannot_be_searched_is_reported():
     rng = np.random.default_rng(75)
     net, slow = specimen(), dataclasses.replace(QUIET, rate=2.0)
     runs = tuple(
@@ -525,7 +525,7 @@ def test_ramps_of_a_run_through_waves_are_left_out():
     assert not [item for item in notices if item.code == "net-encounter-period"]
 
 
-def test_clipped_and_spiky_records_are_told():
+def test_clipped_and_spiky_records_are_reported():
     rng = np.random.default_rng(83)
     net = specimen()
     run = wave_run(Rig(vibration_force=0.0), TANK, net, 1.4, 2.0, name="n", height=0.08, period=1.25, rng=rng)

@@ -63,7 +63,7 @@ def test_bootstrap_leave_one_out_and_bounds(seed):
     assert held.values[1] == pytest.approx(1.3) and held.notices[0].code == "parameter-bound"
 
 
-def test_a_product_is_not_told_apart():
+def test_a_product_is_not_distinguished():
     """Only M times m_B is identifiable: the warning says so, the profile is flat, the product is still right."""
     random = np.random.default_rng(2)
     u = random.uniform(0.5, 5.0, 50)

@@ -77,7 +77,7 @@ def test_planted_ellipses(seed):
             assert ellipse.major < 0.02
     px, py = fit.predict(time)
     assert np.nanstd(px - w.real) < 0.01 and np.nanstd(py - w.imag) < 0.01
-    assert "K2" in fit.left_out  # needs half a year beside S2
+    assert "K2" in fit.left_out  # needs half a year next to S2
 
 
 def test_phase_of_an_ellipse_is_its_largest_current():

@@ -75,7 +75,7 @@ def test_random_seas_come_back(sensors, seed):
         assert quick["spread"] == pytest.approx(truth, abs=math.radians(3.5))
 
 
-def test_two_crossing_seas_are_told_apart():
+def test_two_crossing_seas_are_distinguished():
     """An array sees both; the mean heading alone would lie between them."""
     one, two = sea_of(1, 0.0, 40.0), sea_of(2, 2.0, 40.0, height=1.6)
     records = np.column_stack([seen(one, sensor) + seen(two, sensor) for sensor in STAR])
@@ -88,7 +88,7 @@ def test_two_crossing_seas_are_told_apart():
     assert found.heading[tops] == pytest.approx([0.0, 2.0], abs=math.radians(8.0))
 
 
-def test_a_wrong_sign_is_told():
+def test_a_wrong_sign_is_reported():
     sea = sea_of(3, 0.6, 10.0)
     records = np.column_stack([seen(sea, sensor) for sensor in PUV])
     records[:, 2] *= 4.0

@@ -76,7 +76,7 @@ def test_flat_lines_and_clipping(seed):
     found = find_clipped(clipped, options)
     assert not (found & (clipped < level)).any()
     first, last = values >= level, found
-    assert last.sum() >= 0.95 * first.sum()  # plateaus of one or two samples cannot be told from crests
+    assert last.sum() >= 0.95 * first.sum()  # plateaus of one or two samples cannot be distinguished from crests
 
 
 def test_flags_leave_the_values_and_gaps_are_counted():

@@ -62,7 +62,7 @@ def reported(error: pytest.ExceptionInfo[InputError]) -> str:
 
 @pytest.mark.parametrize("ending", ["nc", "mat", "parquet"])
 @pytest.mark.parametrize("content", [b"", b"time,level\n0,1\n"])
-def test_what_is_no_such_file_is_told_by_its_name(tmp_path: Path, ending: str, content: bytes) -> None:
+def test_what_is_no_such_file_is_reported_by_its_name(tmp_path: Path, ending: str, content: bytes) -> None:
     if ending == "parquet":
         pytest.importorskip("pyarrow")
     with pytest.raises(InputError) as error:
@@ -162,7 +162,7 @@ def test_blocks_too_short_for_a_figure_say_so(tmp_path: Path) -> None:
     assert any("shorter than a segment" in notice.message for notice in result.notices)
 
 
-def test_unit_slips_can_be_turned_off_and_many_are_told_together(tmp_path: Path) -> None:
+def test_unit_slips_can_be_turned_off_and_many_are_reported_together(tmp_path: Path) -> None:
     steps = np.where((TIME // 60).astype(int) % 2 == 1, 100.0, 1.0)
     text = "time,level [m]\n" + "\n".join(f"{t:.1f},{s * e:.4f}" for t, s, e in zip(TIME, steps, LEVEL))
     few = {"block": "1 min", "segment": "30 s"}
@@ -296,7 +296,7 @@ def test_a_decay_that_still_swings_at_its_end(seed: int) -> None:
     assert abs(found.equilibrium - rest) < 0.001 * first
 
 
-def test_a_response_blurred_by_short_segments_is_told() -> None:
+def test_a_response_blurred_by_short_segments_is_reported() -> None:
     random = np.random.default_rng(8)
     size, step = 72000, 0.2
     f = np.fft.rfftfreq(size, step)
@@ -312,7 +312,7 @@ def test_a_response_blurred_by_short_segments_is_told() -> None:
         assert bool(np.nanstd(error) > 2.0) is blurred
 
 
-def test_gauges_too_far_apart_for_their_segments_are_told() -> None:
+def test_gauges_too_far_apart_for_their_segments_are_reported() -> None:
     random = np.random.default_rng(4)
     size, step, water = 8192, 0.5, Water(15.0, 1025.0, 9.81)
     f = np.fft.rfftfreq(size, step)[1:]
@@ -336,7 +336,7 @@ def test_gauges_too_far_apart_for_their_segments_are_told() -> None:
 
 
 def test_records_of_a_comparison_as_others_write_them(tmp_path: Path) -> None:
-    """Remarks beside the numbers, and decimal commas."""
+    """Remarks next to the numbers, and decimal commas."""
     from moyai.records.comparison.run import Pairing, compare_result
 
     result = survey_of(tmp_path, "a.csv", table(), block="2 min")
@@ -367,7 +367,7 @@ def test_a_decay_with_rounded_stamps_is_even_and_one_with_a_gap_is_not() -> None
 
 
 def test_no_reflection_has_an_error_all_the_same() -> None:
-    """A reflection below the noise was told as 0.000 with an error of 0.000."""
+    """A reflection below the noise was stated as 0.000 with an error of 0.000."""
     random = np.random.default_rng(5)
     size, step = 8192, 0.5
     f = np.fft.rfftfreq(size, step)[1:]

@@ -62,7 +62,7 @@ def test_three_gauges_are_mansard_funke():
         np.testing.assert_allclose(result.reflected[0], reflected, rtol=1e-8)
 
 
-def test_condition_is_that_of_the_matrix_and_bad_spacing_is_told():
+def test_condition_is_that_of_the_matrix_and_bad_spacing_is_reported():
     rng = np.random.default_rng(3)
     x = np.array([0.0, 0.25, 0.6])
     for k in rng.uniform(0.2, 12.0, 20):

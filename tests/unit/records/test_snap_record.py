@@ -73,7 +73,7 @@ def test_planted_snap_is_found(seed, samples, noise, tolerance, instant):
 
 
 @pytest.mark.parametrize("seed", range(4))
-def test_drift_is_taken_off_and_told(seed):
+def test_drift_is_taken_off_and_reported(seed):
     time, both, known = planted(seed, samples_in_rise=60, drift=0.5)
     found = read(time, both, known)
     assert "snap-drift" in {item.code for item in found.notices}
@@ -84,7 +84,7 @@ def test_drift_is_taken_off_and_told(seed):
 
 
 @pytest.mark.parametrize("samples", [1.3, 2.0, 3.0, 4.5])
-def test_slow_sampling_is_told_with_what_it_costs(samples):
+def test_slow_sampling_is_reported_with_what_it_costs(samples):
     losses = []
     for seed in range(30):
         time, both, known = planted(seed, samples_in_rise=samples)
@@ -129,7 +129,7 @@ def test_one_cable_names_and_trigger():
     assert found.sum.peak == pytest.approx(known["share"] * known["peak"], rel=1e-3)
 
 
-def test_record_that_stops_early_is_told():
+def test_record_that_stops_early_is_reported():
     time, both, known = planted(3, samples_in_rise=60)
     stop = known["top"] + 6.0 * known["rise"]
     short = read_snap(time, both, unloaded=known["unloaded"], window=(0.0, stop))

@@ -1,4 +1,4 @@
-"""A set of flume runs as one measurement: planted impacts, powers and models found again, faults told with place."""
+"""A set of flume runs as one measurement: planted impacts, powers and models found again, faults with their place."""
 
 from __future__ import annotations
 

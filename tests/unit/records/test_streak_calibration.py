@@ -111,7 +111,7 @@ def test_magnification_is_the_limit_of_the_rays():
     assert refraction.magnification == pytest.approx(1.0 / ratio, rel=1e-8)
 
 
-def test_faulty_targets_are_told():
+def test_faulty_targets_are_reported():
     line = np.column_stack([np.arange(6.0), 2.0 * np.arange(6.0)])
     spread = RANDOM.uniform(0.0, 1.0, (6, 2))
     with pytest.raises(InputError, match="on one line"):

@@ -161,7 +161,7 @@ def test_waves_to_the_other_side_turn_the_sign(folder, batch):
         ([("kind: exposure", "kind: film")], 8, "'film' is not known here"),
     ],
 )
-def test_faults_of_the_file_are_told_with_their_line(folder, pairs, line, message):
+def test_faults_of_the_file_are_reported_with_their_line(folder, pairs, line, message):
     with pytest.raises(CaseError) as found:
         load_streaks(changed(folder, "faulty", *pairs))
     reported = [fault for fault in found.value.faults if message in str(fault)]
@@ -169,7 +169,7 @@ def test_faults_of_the_file_are_told_with_their_line(folder, pairs, line, messag
     assert abs(reported[0].line - line) <= 1
 
 
-def test_all_faults_are_told_at_once(folder):
+def test_all_faults_are_reported_at_once(folder):
     path = changed(
         folder, "many", ("power: [1, 0.65, 0.4]", "power: [1]"), ("run_*.png", "walk.png"), ("targets.csv", "a.csv")
     )
@@ -178,7 +178,7 @@ def test_all_faults_are_told_at_once(folder):
     assert len(found.value.faults) >= 2
 
 
-def test_targets_on_a_line_and_dark_pictures_are_told(folder):
+def test_targets_on_a_line_and_dark_pictures_are_reported(folder):
     lines = "\n".join(f"{100 * k}, {50 * k}, {10 * k}, {5 * k}" for k in range(6))
     (folder / "line.csv").write_text("column, row, x [mm], z [mm]\n" + lines + "\n")
     with pytest.raises(CaseError, match="on one line"):
@@ -191,7 +191,7 @@ def test_targets_on_a_line_and_dark_pictures_are_told(folder):
 
 
 @pytest.mark.slow
-def test_too_few_particles_are_told(folder):
+def test_too_few_particles_are_reported(folder):
     picture = imageio.imread(folder / "run_0.png")
     picture[:, 200:] = np.random.default_rng(2).poisson(12.0, picture[:, 200:].shape)
     imageio.imwrite(folder / "few.png", picture)
@@ -215,7 +215,7 @@ def target_table(folder, name, change):
     return ("targets.csv", f"{name}.csv")
 
 
-def test_exchanged_columns_of_targets_are_told(folder):
+def test_exchanged_columns_of_targets_are_reported(folder):
     """They mirror the picture and would turn the sign of the circulation without a word."""
     swapped = target_table(folder, "swapped", lambda lines: ["row, column, x [mm], z [mm]", *lines[1:]])
     campaign, _ = load_streaks(changed(folder, "swapped", swapped))
@@ -257,7 +257,7 @@ def test_a_wrong_target_is_named_and_pictures_share_size(folder):
         (("[run_*.png]", "[run_0.png, run_1.png, run_0.png]"), "'run_0.png' is given twice"),
     ],
 )
-def test_sections_centres_and_pulses_that_cannot_be_are_told(folder, pair, words):
+def test_sections_centres_and_pulses_that_cannot_be_are_reported(folder, pair, words):
     with pytest.raises(CaseError) as found:
         load_streaks(changed(folder, "impossible", pair))
     assert [words in str(fault) for fault in found.value.faults] == [True], found.value

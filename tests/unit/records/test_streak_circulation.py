@@ -76,7 +76,7 @@ def test_scattered_drift_gives_the_planted_circulation(section, method, toleranc
 @pytest.mark.parametrize(
     ("sizes", "reported"), [([1.2, 1.5, 2.0], True), ([1.5, 1.75, 2.0], False), ([1.5, 2, 9], True)]
 )
-def test_a_limit_carried_by_two_contours_is_told(sizes, reported):
+def test_a_limit_carried_by_two_contours_is_reported(sizes, reported):
     random = np.random.default_rng(5)
     points = cloud_around(SECTIONS[0], 60, 0.1, random)
     found = measure_circulation(points, vortex(points, 2e-3, 1e-3), SECTIONS[0].outline, sizes, resamples=0)
@@ -134,13 +134,13 @@ def test_reduction_of_inertia_from_circulation():
     assert inertia_reduction(18e-4, 1.0 / 0.95, areas) == pytest.approx([0.1896, 0.1489, 0.2792], abs=1e-4)
 
 
-def test_amplitudes_beyond_the_range_are_told():
+def test_amplitudes_beyond_the_range_are_reported():
     assert check_amplitude(1.5) == ()
     assert check_amplitude(0.6)[0].limit == 1.0
     assert check_amplitude(2.6)[0].limit == 2.0
 
 
-def test_faults_of_clouds_and_contours_are_told():
+def test_faults_of_clouds_and_contours_are_reported():
     points = RANDOM.uniform(-0.1, 0.1, (30, 2))
     outline = SECTIONS[0].outline
     with pytest.raises(InputError, match="too few"):

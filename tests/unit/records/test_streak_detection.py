@@ -117,7 +117,7 @@ def test_masked_and_cut_streaks_are_left_out():
     assert detect_streaks(noisy, mask=mask).count == 0
 
 
-def test_faults_of_pictures_are_told(tmp_path):
+def test_faults_of_pictures_are_reported(tmp_path):
     with pytest.raises(InputError, match="no such picture"):
         read_picture(tmp_path / "absent.png")
     (tmp_path / "words.png").write_text("no picture")

@@ -77,7 +77,7 @@ def test_mean_position_of_the_cubic_is_that_of_the_orbit():
     assert close_period_cubic(chain, 1.0).position == pytest.approx(expected, abs=2e-4)
 
 
-def test_faults_of_a_chain_are_told():
+def test_faults_of_a_chain_are_reported():
     place, _ = random_motion(1.0, 1)
     with pytest.raises(InputError, match="before the period"):
         fit_drift_harmonics(chain_of(place, 0.1, 0.05, 6), 1.0)

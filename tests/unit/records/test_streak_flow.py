@@ -64,7 +64,7 @@ def test_without_model_orbits_drift_by_transport_and_settling():
     assert np.ptp(path[:, 0]) == pytest.approx(2.0 * 0.05 * 1.25 / (2.0 * math.pi), rel=0.2)
 
 
-def test_faults_of_the_flow_are_told():
+def test_faults_of_the_flow_are_reported():
     with pytest.raises(InputError, match="inside the section"):
         track_particles(OrbitalFlow(circle_map(1.0), 1.0, 0.1, 0.1), [[0.1, 0.1]], [0.0, 1.0])
     with pytest.raises(InputError, match="no circulation"):

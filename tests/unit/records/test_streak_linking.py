@@ -104,7 +104,7 @@ def test_chains_bridge_a_missing_streak():
     )[0]
 
 
-def test_time_order_must_be_told_by_the_pulses():
+def test_time_order_must_be_given_by_the_pulses():
     require_time_order(regular_pulses(0.1, 0.05, [1.0, 0.65, 0.4], 12), 10)
     require_time_order(regular_pulses(0.1, [0.06, 0.04, 0.025], 1.0, 12), 10)
     for powers in ([1.0], [1.0, 0.5], [1.0, 0.5, 0.5]):
@@ -134,7 +134,7 @@ def test_direction_withstands_scatter_and_a_spoilt_streak(forward):
     assert right >= 58
 
 
-def test_faulty_pulses_are_told():
+def test_faulty_pulses_are_reported():
     with pytest.raises(InputError, match="begins before"):
         regular_pulses(0.05, 0.06, 1.0, 5)
     with pytest.raises(InputError, match="must be positive"):

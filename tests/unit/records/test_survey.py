@@ -1,4 +1,4 @@
-"""Whole surveys: the chain of single functions gives the same, faults are told at their place, campaigns come back."""
+"""Whole surveys: the chain of single functions gives the same, errors have their place, campaigns come back."""
 
 import importlib.util
 import json
@@ -214,7 +214,7 @@ def test_a_short_campaign_gives_its_ratios_back(tmp_path):
     """One block in forty at 5 Hz: what needs no long record."""
     module = example("campaign")
     laws = CampaignLaws(rate=5.0)
-    data, pairs, _, _ = module.work_off(tmp_path, every=40, seed=8, laws=laws, report=False)
+    data, pairs, _, _ = module.process(tmp_path, every=40, seed=8, laws=laws, report=False)
     rows, _ = module.statements(data, pairs, laws)
     found = {name: value for name, value, _, _ in rows}
     assert found["5  new over conventional type"] == pytest.approx(0.7, abs=0.03)
@@ -227,7 +227,7 @@ def test_a_short_campaign_gives_its_ratios_back(tmp_path):
 def test_a_campaign_gives_its_planted_constants_back(tmp_path):
     """One block in twelve of the three campaigns: every statement of the field paper, within stated tolerances."""
     module = example("campaign")
-    data, pairs, results, laws = module.work_off(tmp_path, every=12, seed=5, report=False)
+    data, pairs, results, laws = module.process(tmp_path, every=12, seed=5, report=False)
     assert len(results) == 3
     rows, fitted = module.statements(data, pairs, laws)
     found = {name: value for name, value, _, _ in rows}
@@ -250,7 +250,7 @@ def test_a_campaign_gives_its_planted_constants_back(tmp_path):
 
 @pytest.mark.slow
 def test_unit_slip_and_drift_in_a_survey(tmp_path):
-    """Two hours in the wrong unit and a gauge whose zero wanders: both are told, neither is mended."""
+    """Two hours in the wrong unit and a gauge whose zero wanders: both are reported, neither is mended."""
     storm = Storm("slip", 938_044_800.0, 0.6, 1.5, 0.3, 1.2, 1.0, 0.3, 0.3)
     laws = CampaignLaws(storms=(storm,), rate=1.0)
     path = write_campaign(laws, storm, tmp_path, seed=2)
@@ -271,7 +271,7 @@ def test_unit_slip_and_drift_in_a_survey(tmp_path):
 
 
 def test_the_template_is_a_sound_file(tmp_path):
-    """``moyai new records`` with files beside it that have its headings runs as it is."""
+    """``moyai new records`` with files next to it that have its headings runs as it is."""
     import datetime as dt
 
     from moyai.case.templates import template

@@ -65,7 +65,7 @@ def test_every_wave_gets_its_own_maximum(seed, delay):
     assert not found.double.any()
 
 
-def test_double_peaks_are_told():
+def test_double_peaks_are_reported():
     time = np.arange(0.0, 60.0, 0.05)
     force = np.zeros(time.size)
     for k in range(10):
@@ -109,7 +109,7 @@ def test_blocks_hold_waves_current_and_tensions():
     assert not found.notices
 
 
-def test_blocks_with_gaps_are_left_out_and_slow_loggers_are_told():
+def test_blocks_with_gaps_are_left_out_and_slow_loggers_are_reported():
     time, elevation, force, _ = pulses(2, count=400, step=0.5)
     force[10] = np.nan
     found = analyse_blocks(time, elevation, force, block=1200.0)

@@ -59,7 +59,7 @@ def test_an_overloaded_line_is_computed_well_and_does_not_hold() -> None:
     assert "Does not hold" in page and "Factor of safety 0.476 is below 2" in page
 
 
-def test_outside_the_range_never_holds_even_if_it_is_told_late() -> None:
+def test_outside_the_range_never_holds_even_if_it_is_reported_late() -> None:
     result = judged(UPLIFT)
     assert result.verdict.outcome == "holds"
     late = result.with_notices(Notice("range", "the wave breaks", severity="error"))
@@ -178,7 +178,7 @@ current: {speed: 0.8 m/s, heading_deg: 0}
     assert input_line(replace(result, tree=tree)) == ""
 
 
-def test_what_is_bought_for_the_judged_end_prints_it_beside_its_number() -> None:
+def test_what_is_bought_for_the_judged_end_prints_it_next_to_its_number() -> None:
     """49.4 kN, five realisations up to 55.0, judged at 76.2: piles bought for 55 would be too weak."""
     band = Band(38.5e3, 55.0e3, "5 realisations", decides=False, judged=(30e3, 76.2e3), realisations=5)
     pull = Headline("anchor_horizontal_tension", "Pull", 49.4e3, "N", "storm, line a", band=band)
@@ -197,7 +197,7 @@ def test_what_is_bought_for_the_judged_end_prints_it_beside_its_number() -> None
         assert "38.5 kN to 76.2 kN" in figure.detail and figure.detail.count("judged") == 1 and words in figure.detail
 
 
-def test_beside_what_is_not_judged_stands_the_worst_that_is_known() -> None:
+def test_next_to_what_is_not_judged_stands_the_worst_that_is_known() -> None:
     """One sea is known as a bound alone, of the others the longest gives a factor of 2.14."""
     short = Headline("line_utilisation", "Use", 1 / 3.26, "1", "SWL, short", bound="at least")
     long = replace(short, value=1 / 2.14, where="SWL, long", bound="", shown=False)

@@ -45,7 +45,7 @@ def test_a_bare_switch_before_the_file_leaves_the_file(folder: Path, tmp_path: P
 
 @pytest.mark.slow
 def test_a_unit_is_no_folder_of_that_name(folder: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    """A folder ``m`` beside the results was taken for the file behind a bare ``--dxf``."""
+    """A folder ``m`` next to the results was taken for the file behind a bare ``--dxf``."""
     (tmp_path / "m").mkdir()
     monkeypatch.chdir(tmp_path)
     ran = RUN.invoke(app, ["report", str(folder), "--dxf", "m", "-q", "-o", "out"])

@@ -114,7 +114,7 @@ def test_the_summary_has_badges_governing_numbers_notices_and_a_link_to_every_sh
 
 
 @pytest.mark.parametrize("language", ["en", "ja"])
-def test_numbers_of_the_first_page_and_of_criteria_are_numbers_with_unit_and_bound_beside(language):
+def test_numbers_of_the_first_page_and_of_criteria_are_numbers_with_unit_and_bound_next_to_it(language):
     texts = (
         "6.14 tf",
         "at least 4.57°",

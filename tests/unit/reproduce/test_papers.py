@@ -95,7 +95,7 @@ def test_bias_and_scatter_are_those_of_the_differences(tmp_path):
     assert laid_over(drawn, points).series[-1].style == "points"
 
 
-def test_points_beside_every_curve_are_refused(tmp_path):
+def test_points_next_to_every_curve_are_refused(tmp_path):
     drawn = figure("1", "line", (Abscissa("x", "x"),), Panel("y"), [curve("a", {"x": np.arange(3.0)}, np.arange(3.0))])
     with pytest.raises(
         InputError, match=r"no point of points.csv lies under a curve of figure 1; allowed: x from 0 to 2"
@@ -104,7 +104,7 @@ def test_points_beside_every_curve_are_refused(tmp_path):
 
 
 def test_points_over_paths_are_drawn_and_not_compared(tmp_path):
-    """A loop has no value at a place; a curve beside it is compared, and refuses points that it does not reach."""
+    """A loop has no value at a place; a curve next to it is compared, and refuses points that it does not reach."""
     angle = np.linspace(0.0, 6.0, 30)
     loop = curve("loop", {"x": np.cos(angle)}, np.sin(angle))
     drawn = figure("1", "paths", (Abscissa("x", "x"),), Panel("y"), [loop])

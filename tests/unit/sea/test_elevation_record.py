@@ -1,4 +1,4 @@
-"""Waves of a record against its samples, a random sea and Parseval's theorem; what is no record is told."""
+"""Waves of a record against its samples, a random sea and Parseval's theorem; what is no record is reported."""
 
 import numpy as np
 import pytest
@@ -60,6 +60,6 @@ def test_an_uneven_record_is_taken_on_an_even_grid():
         ([0, 1, 2, 3], [0, 1, 0, 1], 1e-9, "larger step|steps of 1e-09"),
     ],
 )
-def test_what_is_no_record_is_told(time, eta, step, words):
+def test_what_is_no_record_is_reported(time, eta, step, words):
     with pytest.raises(InputError, match=words):
         components_of_record(time, eta, step=step)

@@ -272,7 +272,7 @@ def test_many_components_of_a_steep_deep_wave_give_the_wave_of_few(order):
     assert many.period == pytest.approx(few.period, rel=1e-9)
 
 
-def test_the_residual_that_is_promised_is_kept_or_told():
+def test_the_residual_that_is_promised_is_kept_or_reported():
     kept = nonlinear_wave("stream_function", height=13.5, water=DEEP, wavelength=100.0)
     assert max(kept.surface_residuals()) < 1e-5 and not kept.notices()
     missed = nonlinear_wave("stream_function", height=13.7, water=DEEP, wavelength=100.0)

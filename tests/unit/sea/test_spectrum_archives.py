@@ -105,14 +105,14 @@ def test_spectra_keep_their_energy(tmp_path):
         ("#YY MM DD hh mm Sep\n2020 01 01 00 00 9 0.1 (0.1) 0.2 (0.2)\n2020 01 01 01 00 9 0.1 (0.1)\n", "line 3"),
     ],
 )
-def test_damaged_files_are_told_by_line(tmp_path, text, word):
+def test_damaged_files_are_reported_by_line(tmp_path, text, word):
     path = tmp_path / "x.spec"
     path.write_text(text, encoding="utf-8")
     with pytest.raises(InputError, match=word.replace("(", r"\(")):
         read_archive(path)
 
 
-def test_missing_records_are_told(tmp_path):
+def test_missing_records_are_reported(tmp_path):
     archive = swan(tmp_path, rows="0 0 0 0\n0 0 0 0\n0 0 0 0")
     with pytest.raises(InputError, match="no energy"):
         archive.spectrum(0)

@@ -199,7 +199,7 @@ def test_average_conditional_exceedance_of_independent_rayleigh_peaks_is_exact()
         (list(range(30)), "generalised_pareto", 28.0, "too few"),
     ],
 )
-def test_data_that_cannot_be_fitted_are_told(values, family, location, word):
+def test_data_that_cannot_be_fitted_are_reported(values, family, location, word):
     with pytest.raises(InputError, match=word):
         fit(values, family, location=location)
 

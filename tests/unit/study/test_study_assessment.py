@@ -45,7 +45,7 @@ def test_lines_are_held_against_intact_and_damaged_factors(tmp_path):
     assert study.cases[index].labels[0] == "1 m"
 
 
-def test_lines_of_any_structure_are_told_by_their_responses(tmp_path):
+def test_lines_of_any_structure_are_reported_by_their_responses(tmp_path):
     study, result = assessed(
         tmp_path,
         GRID,
@@ -184,7 +184,7 @@ def test_return_levels_over_a_scatter_diagram(tmp_path):
         ),
     ],
 )
-def test_what_cannot_be_assessed_is_told_and_the_cases_are_kept(tmp_path, assessment, word):
+def test_what_cannot_be_assessed_is_reported_and_the_cases_are_kept(tmp_path, assessment, word):
     _, result = assessed(tmp_path, GRID, assessment)
     reported = " ".join(f"{notice.message} {notice.remedy}" for notice in result.notices)
     assert word in reported

@@ -16,5 +16,5 @@ FOLDER = Path(__file__).parents[3] / "examples" / "study"
 def test_an_example_passes_its_trial(name):
     done = CliRunner().invoke(app, ["study", str(FOLDER / name), "--check", "--json"])
     assert done.exit_code == 0, done.output
-    told = json.loads(done.stdout)
-    assert told["trial_status"] == "converged" and told["expected_seconds"] > 0.0
+    reported = json.loads(done.stdout)
+    assert reported["trial_status"] == "converged" and reported["expected_seconds"] > 0.0

@@ -121,7 +121,7 @@ def test_the_most_probable_maximum_of_longer_times_is_the_mode_of_the_largest_of
         ("family: acer, order: 0", "order"),
     ],
 )
-def test_settings_without_sense_are_told_before_anything_runs(tmp_path, settings, word):
+def test_settings_without_sense_are_reported_before_anything_runs(tmp_path, settings, word):
     path = study_cases.write_text(tmp_path, SEEDS, assess=f"{{extremes: {{response: SWL/x, {settings}}}}}")
     with pytest.raises(CaseError) as caught:
         load_study(path)
@@ -163,7 +163,7 @@ def test_fatigue_takes_the_curve_of_every_line(tmp_path):
         ("{}", "curve"),
     ],
 )
-def test_curves_that_cannot_be_used_are_told_before_anything_runs(tmp_path, curve, word):
+def test_curves_that_cannot_be_used_are_reported_before_anything_runs(tmp_path, curve, word):
     path = study_cases.write_text(tmp_path, SEEDS, assess=f"{{fatigue: {{response: SWL/x, curve: {curve}}}}}")
     with pytest.raises(CaseError) as caught:
         load_study(path)

@@ -70,12 +70,12 @@ def test_paths_that_lead_nowhere_say_where_they_end(path, words):
         assert word in str(caught.value)
 
 
-def test_a_misspelt_last_key_is_told_by_the_schema_of_the_case(tmp_path):
+def test_a_misspelt_last_key_is_reported_by_the_schema_of_the_case(tmp_path):
     reported = faults(tmp_path, "- grid: {'waves[storm].significant_hight': [1 m]}")
     assert "unknown key 'significant_hight'" in reported and "case 1 of 1" in reported
 
 
-def test_all_wrong_paths_of_a_study_are_told_at_once(tmp_path):
+def test_all_wrong_paths_of_a_study_are_reported_at_once(tmp_path):
     variations = """
 - grid:
     waves[storm].significant_hight: [1 m, 2 m]
@@ -89,7 +89,7 @@ def test_all_wrong_paths_of_a_study_are_told_at_once(tmp_path):
 
 
 @pytest.mark.parametrize("search", ["limit", "optimise"])
-def test_a_misspelt_last_key_of_a_search_is_told(tmp_path, search):
+def test_a_misspelt_last_key_of_a_search_is_reported(tmp_path, search):
     study_cases.write_base(tmp_path)
     path = "waves[storm].significant_hight"
     blocks = {
@@ -105,7 +105,7 @@ def test_a_misspelt_last_key_of_a_search_is_told(tmp_path, search):
     assert load_study(file).search is not None
 
 
-def test_a_path_that_does_not_exist_is_told_with_its_line(tmp_path):
+def test_a_path_that_does_not_exist_is_reported_with_its_line(tmp_path):
     reported = faults(tmp_path, "- grid: {'waves[strom].seed': [1, 2]}")
     assert "study.yaml:6" in reported and "did you mean 'storm'" in reported
 
@@ -176,7 +176,7 @@ def test_a_table_gives_a_case_a_row(tmp_path):
         ("a,b\n1,2\n", "no column"),
     ],
 )
-def test_bad_tables_are_told_by_row_and_column(tmp_path, text, word):
+def test_bad_tables_are_reported_by_row_and_column(tmp_path, text, word):
     (tmp_path / "seas.csv").write_text(text, encoding="utf-8")
     reported = faults(
         tmp_path,
@@ -228,7 +228,7 @@ def test_scatter_diagrams_carry_their_probabilities(tmp_path):
         ("significant_height,peak_period,probability\n0.5,4\n", "three columns"),
     ],
 )
-def test_bad_scatter_diagrams_are_told(tmp_path, text, word):
+def test_bad_scatter_diagrams_are_reported(tmp_path, text, word):
     file = tmp_path / "scatter.csv"
     file.write_text(text, encoding="utf-8")
     with pytest.raises(InputError, match=word):
@@ -266,7 +266,7 @@ def test_drawn_values_have_the_mean_and_deviation_that_are_given():
     assert np.log(drawn).std() == pytest.approx(math.sqrt(math.log(1.01)), rel=2e-3)
 
 
-def test_faults_of_cases_are_told_once_with_the_first_case_that_shows_them(tmp_path):
+def test_faults_of_cases_are_reported_once_with_the_first_case_that_shows_them(tmp_path):
     reported = faults(tmp_path, "- grid: {'structure.draught': [3 m, -1 m], 'waves[0].peak_period': [4 s, 5 s]}")
     assert "draught -1 m" in reported and "and 1 more cases" in reported and reported.count("structure.draught") == 1
 
@@ -290,11 +290,11 @@ def test_faults_of_cases_are_told_once_with_the_first_case_that_shows_them(tmp_p
         ),
     ],
 )
-def test_slips_of_a_study_file_are_told(tmp_path, variations, word):
+def test_slips_of_a_study_file_are_reported(tmp_path, variations, word):
     assert word in faults(tmp_path, variations)
 
 
-def test_a_base_case_that_is_not_there_is_told(tmp_path):
+def test_a_base_case_that_is_not_there_is_reported(tmp_path):
     path = study_cases.write_text(tmp_path, "- lines_lost: true")
     (tmp_path / "base.yaml").unlink()
     with pytest.raises(CaseError, match="no such file"):
@@ -335,7 +335,7 @@ def test_a_study_of_spectra_that_was_moved_with_its_files_is_the_same_study(tmp_
 
 
 @pytest.mark.parametrize(("word", "reported"), [("structure", "moyai run"), ("fit", "moyai fit")])
-def test_a_file_of_another_kind_is_told_in_one_sentence(tmp_path, word, reported):
+def test_a_file_of_another_kind_is_reported_in_one_sentence(tmp_path, word, reported):
     path = tmp_path / "other.yaml"
     path.write_text(f"moyai: 1\ntitle: t\n{word}: {{}}\n", encoding="utf-8")
     with pytest.raises(CaseError, match=reported) as caught:
@@ -343,7 +343,7 @@ def test_a_file_of_another_kind_is_told_in_one_sentence(tmp_path, word, reported
     assert len(caught.value.faults) == 1
 
 
-def test_a_study_that_is_run_as_a_case_is_told_its_command(tmp_path):
+def test_a_study_that_is_run_as_a_case_is_reported_its_command(tmp_path):
     with pytest.raises(CaseError, match="moyai study FILE"):
         load_case(study_cases.write_text(tmp_path, "- lines_lost: true"))
 
@@ -387,7 +387,7 @@ def test_a_contour_holds_the_marginal_return_height_and_stays_on_the_circle(tmp_
         ("scale: 0.4", "scale: -1", "scale"),
     ],
 )
-def test_bad_contours_are_told(tmp_path, old, new, word):
+def test_bad_contours_are_reported(tmp_path, old, new, word):
     assert word in faults(tmp_path, CONTOUR.replace(old, new))
 
 

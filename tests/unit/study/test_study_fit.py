@@ -64,7 +64,7 @@ def test_a_planted_value_is_found_to_rounding_and_written_into_the_case(tmp_path
 
 
 @pytest.mark.slow
-def test_noise_is_told_by_the_interval_and_by_the_storms_left_out(tmp_path):
+def test_noise_is_reported_by_the_interval_and_by_the_storms_left_out(tmp_path):
     fit = load_fit(write(tmp_path, noise=0.03, rows=24))
     result, found = run_fit(fit, study_cases.linear_case)
     assert abs(found.values[0] - 55.6) < 4.0 * found.errors[0] and 0.0 < found.errors[0] < 0.3
@@ -85,13 +85,13 @@ def test_noise_is_told_by_the_interval_and_by_the_storms_left_out(tmp_path):
         (("group: storm", "grup: storm"), "did you mean 'group'"),
     ],
 )
-def test_slips_of_a_fit_file_are_told(tmp_path, change, word):
+def test_slips_of_a_fit_file_are_reported(tmp_path, change, word):
     with pytest.raises(CaseError) as caught:
         load_fit(write(tmp_path, TEXT.replace(*change)))
     assert word in "\n".join(str(fault) for fault in caught.value.faults)
 
 
-def test_a_value_that_is_no_number_is_told_by_row(tmp_path):
+def test_a_value_that_is_no_number_is_reported_by_row(tmp_path):
     path = write(tmp_path)
     file = tmp_path / "observed.csv"
     rows = file.read_text(encoding="utf-8").splitlines()
@@ -102,7 +102,7 @@ def test_a_value_that_is_no_number_is_told_by_row(tmp_path):
 
 
 def test_a_value_that_could_not_be_written_is_refused_before_the_fit(tmp_path):
-    """A sea that only the fit file sets has no place in the case: that was told after the last trial."""
+    """A sea that only the fit file sets has no place in the case: that was stated after the last trial."""
     only_here = (
         TEXT.replace(
             "  parameters:\n    lines[*].segments[0].length: {{from: 54 m, to: 57 m}}",

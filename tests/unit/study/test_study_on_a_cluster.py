@@ -76,7 +76,7 @@ def test_a_killed_worker_costs_no_case_and_no_bit(cluster, tmp_path, monkeypatch
             os.kill(workers[0].pid, signal.SIGKILL)
             killed.append(standing.done)
 
-    # The client's own note of the scheduler is renewed beside, without the workers: it must not be relied on
+    # The client's own note of the scheduler is renewed as well, without the workers: it must not be relied on
     monkeypatch.setattr(client, "scheduler_info", lambda n_workers=0: {"workers": {}})
     on_cluster = run_study(study, tmp_path / "cluster", study_cases.slow_case, workers=1, on=client, watch=watch)
     here = run_study(study, tmp_path / "here", study_cases.fast_case, workers=1)

@@ -131,7 +131,7 @@ def test_questions_without_sense_are_answered_with_one_sentence(folder, words, r
     assert code == 2 and reported in text and "internal error" not in text
 
 
-def test_what_holds_no_results_of_a_study_is_told(tmp_path, folder, monkeypatch):
+def test_what_holds_no_results_of_a_study_is_reported(tmp_path, folder, monkeypatch):
     for place, reported in ((tmp_path, "no results of a study"), (tmp_path / "none.nc", "no such file")):
         code, text = asked(place)
         assert code == 2 and reported in text
@@ -189,7 +189,7 @@ def test_a_study_whose_cases_are_all_refused_is_refused_itself(tmp_path):
         ("- lines_lost: {path: structure.section}", "the only line"),
     ],
 )
-def test_a_structure_without_a_list_of_lines_is_told_what_can_be_lost(tmp_path, variation, reported):
+def test_a_structure_without_a_list_of_lines_is_reported_what_can_be_lost(tmp_path, variation, reported):
     with pytest.raises(CaseError) as caught:
         load_study(study_cases.write_text(tmp_path, variation))
     assert reported in str(caught.value)

@@ -113,7 +113,7 @@ def test_what_cannot_be_reached_is_a_failed_row_that_says_so(tmp_path):
         ("optimise", "{variables: {'lines[*].count': [1, 1]}, minimise: SWL/cost}", "empty"),
     ],
 )
-def test_slips_of_a_search_are_told(tmp_path, key, text, word):
+def test_slips_of_a_search_are_reported(tmp_path, key, text, word):
     with pytest.raises(CaseError) as caught:
         load_study(study_cases.write_text(tmp_path, "- grid: {'waves[0].peak_period': [5 s]}", **{key: text}))
     assert word in "\n".join(str(fault) for fault in caught.value.faults)

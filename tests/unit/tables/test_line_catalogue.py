@@ -57,7 +57,7 @@ def test_submerged_weight_follows_the_water() -> None:
     assert line_type("polypropylene_8_strand", 0.05).submerged_weight_per_length(1025.0, 9.81) < 0.0
 
 
-def test_range_and_unconfirmed_values_are_told() -> None:
+def test_range_and_unconfirmed_values_are_reported() -> None:
     assert check_line_properties(line_type("studless_chain_R4", 0.08)) == ()
     codes = {notice.code for notice in check_line_properties(line_type("studless_chain_U2", 0.003))}
     assert codes == {"line-diameter-range", "line-values-unconfirmed"}

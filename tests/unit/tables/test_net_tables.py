@@ -48,7 +48,7 @@ def test_materials_and_growth():
     assert not net_fouling("ns9415").confirmed
 
 
-def test_unknown_names_are_told():
+def test_unknown_names_are_reported():
     with pytest.raises(InputError, match="A, B, C"):
         matsubara_net("K")
     with pytest.raises(InputError, match="did you mean 'nylon'"):

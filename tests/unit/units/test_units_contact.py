@@ -65,7 +65,7 @@ def _fender(name: str) -> Connector:
         ((_fender("f"),), [(-0.09, -0.06)], False),
         ((_fender("f"),), [(-0.09, 0.02)], True),
         ((_fender("f"),), [(-0.02, 0.02)], False),
-        # one that is lifted beside one that never is, and beside a ball
+        # one that is lifted next to one that never is, and next to a ball
         ((_fender("f"), _fender("g")), [(-0.09, 0.02), (-0.09, -0.06)], True),
         ((PIN, _fender("f")), [(np.nan, np.nan), (-0.09, 0.02)], True),
         ((PIN,), [(np.nan, np.nan)], False),
@@ -166,7 +166,7 @@ def test_no_load_in_one_sea_is_none_in_the_next(known: float, shown: str) -> Non
     assert {item.text for item in found} == {"not known", ""}
 
 
-def test_one_realisation_in_which_hulls_meet_is_told() -> None:
+def test_one_realisation_in_which_hulls_meet_is_reported() -> None:
     sea = _regular(meet=1, closing=0.45).squeeze("period", drop=True)
     sea["gap_closing_largest_of_realisation"] = (("member", "gap"), [[0.4], [0.52]])
     groups = _groups(sea)
@@ -174,7 +174,7 @@ def test_one_realisation_in_which_hulls_meet_is_told() -> None:
     assert notice.value == pytest.approx(1.04)
 
 
-def test_hulls_that_meet_with_less_damping_are_told() -> None:
+def test_hulls_that_meet_with_less_damping_are_reported() -> None:
     """The force is then not known, and the run is no more within its range than its verdict says."""
     own, other = _regular(closing=0.45), _regular(meet=1, closing=0.52)
     sea = with_damping_band(own, [own, other])

@@ -139,8 +139,8 @@ def test_without_drift_in_the_file_the_row_moves_as_without_drift(folder, datase
         data = still.tree[f"SWL/frequency/{sea}"].to_dataset()
         without = ("relative_motion_largest", "drift_per_amplitude_squared")
         compare(found.tree[f"SWL/frequency/{sea}"].to_dataset(), data, without, 1e-9)
-    (told,) = [notice for notice in found.notices if notice.code == "coefficients-without-drift"]
-    assert told.severity == "warning"
+    (reported,) = [notice for notice in found.notices if notice.code == "coefficients-without-drift"]
+    assert reported.severity == "warning"
 
 
 @pytest.mark.slow

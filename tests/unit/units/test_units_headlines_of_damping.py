@@ -18,7 +18,7 @@ from moyai.structures.units.headlines import (
 )
 from moyai.structures.units.largest import each_of
 from moyai.structures.units.line_headlines import line_headlines
-from moyai.structures.units.time.damping import curves_bear
+from moyai.structures.units.time.damping import curves_matter
 
 DOFS = ["sway", "heave", "roll"]
 
@@ -134,8 +134,8 @@ def test_lines_beyond_their_range_at_an_end_of_the_damping_are_not_known_either(
     tension, *_ = line_headlines(groups, [("/SWL/frequency/daily", data)])
     assert tension.text == "not known" and "45 kN, with damping at the end of its band 80 kN" in tension.detail
     assert next(iter(_gaps(groups, [("/SWL/frequency/daily", data)]))).bound == "at least"
-    assert curves_bear(SimpleNamespace(joints=()), data, lines_of(45.0e3))
-    assert not curves_bear(SimpleNamespace(joints=()), lines_of(45.0e3), lines_of(45.0e3))
+    assert curves_matter(SimpleNamespace(joints=()), data, lines_of(45.0e3))
+    assert not curves_matter(SimpleNamespace(joints=()), lines_of(45.0e3), lines_of(45.0e3))
 
 
 def test_an_inextensible_line_that_does_not_reach_is_not_known():

@@ -21,7 +21,7 @@ from moyai.structures.units.time.model import RowInTime
 from moyai.validation.units import WATER, row
 
 SLACK, STIFFNESS = 0.05, 2e6
-#: Beside the centre line and below the deck, so that every motion draws it
+#: Next to the centre line and below the deck, so that every motion draws it
 CHAIN = Connector(
     "c", "chain", ((0, 1),), 3.0, 1.0, (0.0, 1.0, 0.0), end_to_end=True,
     curve=Curve((SLACK - 1.0, SLACK, SLACK + 1.0), (0.0, 0.0, STIFFNESS)),
@@ -291,7 +291,7 @@ def test_lines_at_rest_along_the_motion_see_what_the_tangent_does_not() -> None:
 
 @pytest.mark.parametrize("connector", [CHAIN, RUBBER])
 def test_where_both_ends_meet_it_bears_nothing(connector: Connector) -> None:
-    """A line without length has no direction: no force, a stiffness that is finite, also just beside that place."""
+    """A line without length has no direction: no force, a stiffness that is finite, also just next to that place."""
     at = at_rest(connector)
     link = at.links[0]
     # waves work a chain about a slack mean: it pulls in the mean

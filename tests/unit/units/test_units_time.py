@@ -29,7 +29,7 @@ from moyai.structures.units.seas import regular_answer
 from moyai.structures.units.time import damping as damping_in_time
 from moyai.structures.units.time import seas as seas_in_time
 from moyai.structures.units.time.analysis import SeaInTime, sea_in_time
-from moyai.structures.units.time.damping import curves_bear, with_ends_in_time
+from moyai.structures.units.time.damping import curves_matter, with_ends_in_time
 from moyai.structures.units.time.datasets import run_numbers
 from moyai.structures.units.time.kernel import joint_force
 from moyai.structures.units.time.lines import Carried, events_of, moving_line, rerun, rerun_events
@@ -261,7 +261,7 @@ def test_ends_of_the_damping_in_time_are_those_of_the_frequency_domain_where_it_
     frequency = with_damping_band(
         regular_dataset(at, sea, answers, own), [regular_dataset(there, sea, one, own) for there, one in others]
     )
-    assert not curves_bear(at, frequency, timed)
+    assert not curves_matter(at, frequency, timed)
     own_roll = frequency["motion_amplitude"].values[0, :, 4]
     for end in ("low", "high"):
         expected = frequency[f"motion_amplitude_{end}"].values[0, :, 4] / own_roll
@@ -277,9 +277,9 @@ def test_a_connector_with_a_curve_or_a_tight_line_has_its_damping_run_in_time():
         return xr.Dataset(data, coords={"line": ["a"]})
 
     chain = Connector("c", "chain", ((0, 1),), 0.0, 3.0, curve=Curve((-1.0, 0.1, 1.1), (0.0, 0.0, 4e6)))
-    assert curves_bear(at_rest(chain), lines(20.0), lines(20.0))
-    assert not curves_bear(at_rest(HINGE), lines(20.0), lines(20.0))
-    assert curves_bear(at_rest(HINGE), lines(51.0), lines(20.0)) and curves_bear(
+    assert curves_matter(at_rest(chain), lines(20.0), lines(20.0))
+    assert not curves_matter(at_rest(HINGE), lines(20.0), lines(20.0))
+    assert curves_matter(at_rest(HINGE), lines(51.0), lines(20.0)) and curves_matter(
         at_rest(HINGE), lines(9.0), lines(51.0)
     )
 

@@ -210,7 +210,7 @@ def test_without_capytaine_the_message_says_how_to_get_it(monkeypatch):
     green.green_function.cache_clear()
 
 
-def test_a_machine_without_memory_is_told_before_it_starts(box, monkeypatch):
+def test_a_machine_without_memory_is_reported_before_it_starts(box, monkeypatch):
     from moyai.core.errors import InputError
 
     at, panels = box

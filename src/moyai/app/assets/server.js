@@ -71,7 +71,7 @@ export function element(name, attributes = {}, ...children) {
 
 let timer = 0;
 export function tell(words) {
-  const place = document.getElementById("told");
+  const place = document.getElementById("announcement");
   place.textContent = words;
   clearTimeout(timer);
   timer = setTimeout(() => { place.textContent = ""; }, 9000);

@@ -105,7 +105,7 @@ def compare_result(
     Returns
     -------
     Result
-        One group a pairing with ``coordinate``, ``model``, ``observed``, and the figures of agreement.
+        One group a pairing with ``coordinate``, ``model``, ``observed``, and the measures of agreement.
 
     Raises
     ------
@@ -147,13 +147,14 @@ def compare_result(
             classes = record[state][inside], tuple(edges) or _edges(record[state])
         label = f"{name.strip('/').replace('/', ' ')} against {pairing.column}"
         groups[label.replace("/", " ")] = _group(found, unit, axis, label, classes, record, state)
-    tree = xr.DataTree.from_dict(VOCABULARY.close({f"/{name}": dataset for name, dataset in groups.items()}))
+    described, undeclared = VOCABULARY.close({f"/{name}": dataset for name, dataset in groups.items()})
+    tree = xr.DataTree.from_dict(described)
     title = str(result.tree.attrs.get("title", "")) or "result"
     tree.attrs = {"title": f"{title} against {path.name}", "structure": "comparison", "case_text": "", "case_hash": ""}
     message = f"{counted(len(groups), 'variable')} compared with {path.name}"
     case_hash = str(result.tree.attrs.get("case_hash", ""))
     provenance = make_provenance(title=tree.attrs["title"], record=path.name, compared_case=case_hash)
-    return Result(tree, "converged", message, (), tuple(notices), provenance)
+    return Result(tree, "converged", message, (), (*notices, *undeclared), provenance)
 
 
 def _read(path: Path, coordinate: str, decimal: str, wanted: Set[str]) -> tuple[Record, str]:
@@ -357,7 +358,7 @@ VOCABULARY = Vocabulary.of(
         "by_state": (NO_UNIT, "agreement by class of the sea state"),
         "state_count": ("1", "pairs of the class"),
     },
-    labels={"figure": "figure of the agreement", "state": "class of the sea state"},
+    labels={"figure": "measure of the agreement", "state": "class of the sea state"},
 )
 FIGURES = (
     ("count", "pairs"),
@@ -373,10 +374,10 @@ FIGURES = (
 )
 
 
-def _row(figures: ModelAgreement | None) -> list[float]:
-    if figures is None:
+def _row(agreement: ModelAgreement | None) -> list[float]:
+    if agreement is None:
         return [math.nan] * len(FIGURES)
-    return [float(getattr(figures, key)) for key, _ in FIGURES]
+    return [float(getattr(agreement, key)) for key, _ in FIGURES]
 
 
 def _group(

@@ -175,15 +175,14 @@ def identification_result(found: Identification, *, title: str, text: str = "", 
         )
     grave = [notice for notice in found.notices if notice.severity == "error"]
     status: Status = "outside_validity" if grave else "converged"
+    groups, undeclared = VOCABULARY.close(
+        {"/": root, "/coefficients": identification_dataset(found), "/record": record_dataset(found)}
+    )
     return Result(
-        tree=xr.DataTree.from_dict(
-            VOCABULARY.close(
-                {"/": root, "/coefficients": identification_dataset(found), "/record": record_dataset(found)}
-            )
-        ),
+        tree=xr.DataTree.from_dict(groups),
         status=status,
         message=grave[0].message if grave else "all fits were made",
         checks=tuple(checks),
-        notices=found.notices,
+        notices=(*found.notices, *undeclared),
         provenance=make_provenance(title=title, structure="force_record", seeds=[found.setup.seed]),
     )

@@ -170,12 +170,13 @@ def nets_result(found: NetFindings, *, text: str = "") -> Result:
     grave = [notice for notice in found.notices if notice.severity == "error"]
     status: Status = "outside_validity" if grave else "converged"
     count = len(found.towing) + len(found.waves) + len(found.tensions)
+    described, undeclared = VOCABULARY.close(groups)
     return Result(
-        tree=xr.DataTree.from_dict(VOCABULARY.close(groups)),
+        tree=xr.DataTree.from_dict(described),
         status=status,
         message=grave[0].message if grave else f"evaluated: {counted(count, 'run')}",
         checks=_checks(found),
-        notices=found.notices,
+        notices=(*found.notices, *undeclared),
         provenance=make_provenance(title=campaign.title, structure="nets", seeds=[campaign.seed]),
     )
 

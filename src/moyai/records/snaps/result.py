@@ -209,10 +209,11 @@ def snap_runs_result(findings: SnapFindings, *, text: str = "") -> Result:
     }
     grave = [notice for notice in findings.notices if notice.severity == "error"]
     status: Status = "outside_validity" if grave else "converged"
+    described, undeclared = VOCABULARY.close(groups)
     return Result(
-        tree=xr.DataTree.from_dict(VOCABULARY.close(groups)),
+        tree=xr.DataTree.from_dict(described),
         status=status,
         message=grave[0].message if grave else f"{len(findings.found)} {findings.runs.origin} runs were read",
-        notices=findings.notices,
+        notices=(*findings.notices, *undeclared),
         provenance=make_provenance(title=title, structure="snap_runs", seeds=[]),
     )

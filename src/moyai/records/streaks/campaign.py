@@ -282,9 +282,10 @@ def _result(
     message = ""
     if interrupted:
         message = f"{len(measured)} of {len(campaign.runs)} runs are done; the same command continues from there"
-    unique = tuple(dict.fromkeys(notices))
+    described, undeclared = VOCABULARY.close(groups)
+    unique = tuple(dict.fromkeys((*notices, *undeclared)))
     return Result(
-        xr.DataTree.from_dict(VOCABULARY.close(groups)),
+        xr.DataTree.from_dict(described),
         status="interrupted" if interrupted else "converged",
         message=message,
         checks=tuple(checks),

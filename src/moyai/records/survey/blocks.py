@@ -1,4 +1,4 @@
-"""One block of a survey: from the samples of the loggers to its figures."""
+"""One block of a survey: from the samples of the loggers to its statistics."""
 
 from __future__ import annotations
 
@@ -31,7 +31,7 @@ _STILL = 0.5
 
 @dataclass(frozen=True, eq=False)
 class BlockResult:
-    """Figures of a block."""
+    """Statistics of a block."""
 
     index: int
     #: [s].
@@ -52,7 +52,7 @@ class BlockResult:
     waves: dict[str, dict[str, float]] = field(default_factory=dict)
     #: By channel: the waves themselves.
     cut: dict[str, Waves] = field(default_factory=dict)
-    #: By channel: (frequency, density, degrees of freedom, figures).
+    #: By channel: (frequency, density, degrees of freedom, statistics).
     spectra: dict[str, tuple[Array, Array, float, dict[str, float]]] = field(default_factory=dict)
     #: Values of the directions by name.
     directions: dict[str, float] = field(default_factory=dict)
@@ -60,7 +60,7 @@ class BlockResult:
     current: dict[str, float] = field(default_factory=dict)
     #: Values of the reflection by name.
     reflection: dict[str, float] = field(default_factory=dict)
-    #: By channel: figures by name.
+    #: By channel: statistics by name.
     tensions: dict[str, dict[str, float]] = field(default_factory=dict)
     #: By channel: the response to the wave channel.
     responses: dict[str, ResponseFunction] = field(default_factory=dict)
@@ -87,8 +87,8 @@ class _Samples:
         return self._found[name]
 
 
-def work_off(survey: Survey, index: int, origin: float, records: Sequence[Record | None]) -> BlockResult:
-    """Return the figures of one block.
+def process_block(survey: Survey, index: int, origin: float, records: Sequence[Record | None]) -> BlockResult:
+    """Return the statistics of one block.
 
     Parameters
     ----------
@@ -181,23 +181,23 @@ def _waves(
     survey: Survey, data: _Samples, notices: list[Notice]
 ) -> tuple[dict[str, Waves], dict[str, dict[str, float]]]:
     cut: dict[str, Waves] = {}
-    figures: dict[str, dict[str, float]] = {}
+    statistics: dict[str, dict[str, float]] = {}
     for name in survey.waves:
         found = _surface(survey, data, name, notices)
         number = 0 if found is None else int(np.count_nonzero(np.isfinite(found[1])))
         if found is None or number < 3:
             notices.append(Notice("waves-skipped", f"{name}: a block holds {number} sound samples: no waves"))
-            figures[name] = dict.fromkeys(STATISTICS, math.nan)
+            statistics[name] = dict.fromkeys(STATISTICS, math.nan)
             continue
         try:
             waves = find_waves(*found, survey.wave_options)
         except InputError as error:
             notices.append(Notice("waves-skipped", f"{name}: {error.fault.message}"))
-            figures[name] = dict.fromkeys(STATISTICS, math.nan)
+            statistics[name] = dict.fromkeys(STATISTICS, math.nan)
             continue
-        cut[name], figures[name] = waves, waves.statistics()
+        cut[name], statistics[name] = waves, waves.statistics()
         notices.extend(waves.notices)
-    return cut, figures
+    return cut, statistics
 
 
 def _even(time: Array, *values: Array) -> tuple[float, Array]:
@@ -274,9 +274,9 @@ def _spectra(
             notices.append(Notice("spectrum-skipped", f"{name}: {error.fault.message}"))
             continue
         notices.extend(spectrum.notices)
-        figures = spectrum.figures(survey.spectral.lowest, survey.spectral.highest)
+        statistics = spectrum.figures(survey.spectral.lowest, survey.spectral.highest)
         chosen = spectrum.frequency <= survey.spectral.highest
-        out[name] = spectrum.frequency[chosen], spectrum.density[chosen], spectrum.degrees_of_freedom, figures
+        out[name] = spectrum.frequency[chosen], spectrum.density[chosen], spectrum.degrees_of_freedom, statistics
     return out
 
 
@@ -425,16 +425,16 @@ def _tensions(
         time, values = time[known], values[known]
         rate = 1.0 / float(np.median(np.diff(time)))
         split = split_tension(time, values, use.steady, cutoff=use.cutoff)
-        figures = {"steady": split.level, "snap_count": math.nan}
+        row = {"steady": split.level, "snap_count": math.nan}
         if math.isfinite(use.snap_limit):
             above = split.fluctuating > use.snap_limit
-            figures["snap_count"] = float(np.count_nonzero(above[1:] & ~above[:-1]))
+            row["snap_count"] = float(np.count_nonzero(above[1:] & ~above[:-1]))
         if waves is not None and len(waves):
             lag = survey.tension_lag + _refined_lag(survey, data, found, split.fluctuating)
             statistics = tension_statistics(
                 wave_maxima(time, split.fluctuating, waves.start, waves.period, delay=lag).maximum
             )
-            figures |= {
+            row |= {
                 "maximum": statistics.maximum,
                 "tenth": statistics.tenth,
                 "third": statistics.third,
@@ -446,7 +446,7 @@ def _tensions(
             message = f"{use.channel}: {rate:.3g} samples a second do not resolve snaps, which rise in 0.01 to 0.1 s"
             remedy = "read the largest tensions as lower bounds"
             notices.append(Notice("tension-sampling", message, rate, SLOWEST_TENSION_RATE, remedy=remedy))
-        out[use.channel] = figures
+        out[use.channel] = row
     return out
 
 

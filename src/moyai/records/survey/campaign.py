@@ -15,6 +15,7 @@ import numpy as np
 
 from moyai.core.arrays import Array
 from moyai.core.errors import InputError
+from moyai.core.files import partial_file, write_whole
 from moyai.core.progress import Progress, silent
 from moyai.sea.dispersion import wave_number
 from moyai.sea.spectra import jonswap
@@ -315,11 +316,10 @@ def write_campaign(
     """
     import h5netcdf
 
-    folder.mkdir(parents=True, exist_ok=True)
     data = folder / f"{storm.name}.nc"
     total = round(storm.days * 86400.0 / laws.block)
     size = round(laws.block * laws.rate)
-    with h5netcdf.File(data, "w") as file:
+    with partial_file(data) as partial, h5netcdf.File(partial, "w") as file:
         file.dimensions = {"time": size * len(range(0, total, every))}
         for name in ("time", *CHANNELS):
             kind = np.float64 if name == "time" else np.float32
@@ -338,6 +338,4 @@ def write_campaign(
         gauge=laws.gauge_depth,
         lag=laws.lag,
     )
-    path = folder / f"{storm.name}.yaml"
-    path.write_text(text, encoding="utf-8")
-    return path
+    return write_whole(folder / f"{storm.name}.yaml", text.encode("utf-8"))

@@ -65,7 +65,7 @@ class DirectionalSpectrum:
         return np.angle(first), np.sqrt(np.maximum(2.0 * (1.0 - np.abs(first)), 0.0))
 
     def figures(self, lowest: float = 0.0, highest: float = math.inf) -> dict[str, float]:
-        """Return the figures of the whole sea over a band [Hz].
+        """Return the values of the whole sea over a band [Hz].
 
         Returns
         -------

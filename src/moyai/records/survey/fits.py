@@ -1,4 +1,4 @@
-"""Relations between the figures of the blocks: tension against height, current and direction, type against type."""
+"""Relations between the statistics of the blocks: tension against height, current and direction, type against type."""
 
 from __future__ import annotations
 

@@ -44,7 +44,7 @@ class ChannelUse:
 
 @dataclass(frozen=True)
 class Spectral:
-    """How spectra are taken, and in which band [Hz] their figures."""
+    """How spectra are taken, and in which band [Hz] their values."""
 
     options: WelchOptions
     lowest: float

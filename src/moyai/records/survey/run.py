@@ -1,4 +1,4 @@
-"""Work a survey off: read the loggers by the chunk, figure every block, gather what holds for the whole record."""
+"""Process a survey: read the loggers by the chunk, process every block, gather what holds for the whole record."""
 
 from __future__ import annotations
 
@@ -17,7 +17,7 @@ from moyai.core.validity import Notice
 from moyai.records.reading.quality import find_drift, find_slips, quality_notices
 from moyai.records.reading.reader import CHUNK_ROWS, RecordBlock, aligned, blocks, read_chunks
 from moyai.records.reading.record import Record, instant_text
-from moyai.records.survey.blocks import BlockResult, work_off
+from moyai.records.survey.blocks import BlockResult, process_block
 from moyai.records.survey.fits import fit_relations
 from moyai.records.survey.model import Survey
 from moyai.records.survey.variables import VOCABULARY
@@ -86,7 +86,7 @@ def run_survey(survey: Survey, progress: Progress = silent, *, rows: int = CHUNK
         readers = [_Reader(read_chunks(logger, rows), notices) for logger in survey.loggers]
         streams: list[Iterator[RecordBlock]] = [blocks(iter(reader), origin, survey.block_length) for reader in readers]
         for number, (index, records) in enumerate(aligned(streams), 1):
-            found.append(work_off(survey, index, origin, records))
+            found.append(process_block(survey, index, origin, records))
             progress("blocks", number, number + 1)
     except KeyboardInterrupt:
         if not found:
@@ -173,7 +173,7 @@ def _assemble(survey: Survey, found: Sequence[BlockResult], dated: bool) -> tupl
     symbols = _symbols(survey)
     groups["blocks"] = _channels(found, names, symbols, time)
     if survey.waves:
-        groups["waves"] = _figures(
+        groups["waves"] = _table(
             [
                 {name: {**block.waves.get(name, {}), **_spectral(block, name)} for name in survey.waves}
                 for block in found
@@ -192,7 +192,7 @@ def _assemble(survey: Survey, found: Sequence[BlockResult], dated: bool) -> tupl
     if any(block.tensions for block in found):
         lines = tuple(entry.channel for entry in survey.tensions)
         keys = tuple(dict.fromkeys(name for block in found for row in block.tensions.values() for name in row))
-        groups["tensions"] = _figures([dict(block.tensions) for block in found], lines, "line", keys, time)
+        groups["tensions"] = _table([dict(block.tensions) for block in found], lines, "line", keys, time)
         groups["tensions"] = groups["tensions"].assign_coords(
             group=("line", np.array([entry.group for entry in survey.tensions], dtype=object))
         )
@@ -205,7 +205,8 @@ def _assemble(survey: Survey, found: Sequence[BlockResult], dated: bool) -> tupl
     whole = _whole(survey, found)
     if whole is not None:
         groups["whole"] = whole
-    tree = xr.DataTree.from_dict(VOCABULARY.close({f"/{name}": dataset for name, dataset in groups.items()}))
+    described, undeclared = VOCABULARY.close({f"/{name}": dataset for name, dataset in groups.items()})
+    tree = xr.DataTree.from_dict(described)
     tree.attrs = {
         "title": survey.title,
         "structure": "records",
@@ -215,7 +216,7 @@ def _assemble(survey: Survey, found: Sequence[BlockResult], dated: bool) -> tupl
         "dated": int(dated),
         "x_axis_bearing_deg": math.degrees(survey.x_axis_bearing),
     }
-    return tree, notices
+    return tree, [*notices, *undeclared]
 
 
 def _symbols(survey: Survey) -> dict[str, str]:
@@ -247,7 +248,7 @@ def _spectral(block: BlockResult, name: str) -> dict[str, float]:
     return block.spectra[name][3] if name in block.spectra else {}
 
 
-def _figures(
+def _table(
     rows: Sequence[dict[str, dict[str, float]]], members: Sequence[str], dimension: str, keys: Sequence[str], time: Any
 ) -> xr.Dataset:
     import xarray as xr

@@ -234,7 +234,7 @@ def _line(
     found = wave_maxima(t, split.fluctuating, cycles.start, cycles.period, delay=delay)
     numbers = tension_statistics(found.maximum)
     below = split.fluctuating[split.fluctuating < 0.0]
-    figures = (
+    values = (
         split.level,
         numbers.maximum,
         numbers.tenth,
@@ -245,7 +245,7 @@ def _line(
         delay,
         float(np.sqrt(np.mean(below**2))) if below.size else 0.0,
     )
-    return figures, found.top
+    return values, found.top
 
 
 def _checked(time: ArrayLike, elevation: ArrayLike, tension: ArrayLike) -> tuple[Array, Array, Array, float]:

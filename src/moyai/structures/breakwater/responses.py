@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import math
 from dataclasses import replace
-from typing import TYPE_CHECKING
 
 import numpy as np
 
@@ -15,10 +14,6 @@ from moyai.floating.frequency import Motions, relative_elevation
 from moyai.floating.irregular import response_statistics
 from moyai.structures.breakwater.assembly import FloatingUnit
 from moyai.structures.breakwater.hydrodynamics import wavelengths
-
-if TYPE_CHECKING:
-    pass
-
 
 PHASES = 72  # instants of a cycle at which the nonlinear lines are looked up along the linear orbit
 PEAKS_LOOKED_UP = 50

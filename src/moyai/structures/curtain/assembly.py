@@ -185,7 +185,7 @@ def assemble(problem: CurtainProblem, name: str, level: float) -> LevelCurtain:
         pretension=0.0 if anchors is None else anchors.pretension or 0.0,
     )
     given = problem.environment.current
-    profile = currents.uniform(1.0, curtain.normal) if given is None else _in_water(given, water)
+    profile = currents.uniform(1.0, curtain.normal) if given is None else given.in_depth(water.depth)
     depth = min(curtain.skirt.length, water.depth)
     reference = _reference_speed(profile, depth)
     heading = _heading(profile, depth, curtain.normal)
@@ -239,11 +239,6 @@ def _turned(profile: CurrentProfile, by: float) -> CurrentProfile:
     if isinstance(profile, UniformCurrent | PowerLawCurrent):
         return replace(profile, heading=profile.heading + by)
     raise TypeError(f"a current of kind {type(profile).__name__} cannot be turned")
-
-
-def _in_water(profile: CurrentProfile, water: Water) -> CurrentProfile:
-    """Return a power law with its foot on the bed of this water level."""
-    return replace(profile, water_depth=water.depth) if isinstance(profile, PowerLawCurrent) else profile
 
 
 def _reference_speed(profile: CurrentProfile, depth: float) -> float:

@@ -42,8 +42,8 @@ class MemberWaves:
     theory: WaveTheory = "automatic"
 
     def waves(self) -> tuple[tuple[float, float], ...]:
-        """Return every height with every period."""
-        return tuple((height, period) for period in self.periods for height in self.heights)
+        """Return every height with every period [m], [s]: all periods of the first height, then those of the next."""
+        return tuple((height, period) for height in self.heights for period in self.periods)
 
 
 MemberSea = MemberWaves | IrregularSea

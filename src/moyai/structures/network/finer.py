@@ -153,11 +153,11 @@ def check_finer(
 
     def again(mesh: _Mesh, **more: Any) -> _Found:
         kept = np.unique(np.concatenate(list(mesh.parts.values())))
-        nodes, beside = around(mesh.network, fixed_points(mesh.assembly, mesh.network))
+        nodes, next_bars = around(mesh.network, fixed_points(mesh.assembly, mesh.network))
         nodes = np.union1d(nodes, held_knots(mesh.assembly)) if mesh.assembly.net_bars else nodes
         chosen = {
             **options, **more, "keep_nodes": nodes if nodes.size else np.zeros(1, dtype=np.int64),
-            "keep_bars": np.union1d(kept, beside),
+            "keep_bars": np.union1d(kept, next_bars),
         }  # fmt: skip
         if coupled is None:
             found = simulate(mesh.network, motions, start=mesh.start, progress=progress, **chosen)

@@ -52,7 +52,7 @@ from moyai.structures.units.seas import (
 from moyai.structures.units.section import SectionAnswer, comparable, section_answer
 from moyai.structures.units.time.analysis import sea_in_time, water_in_time
 from moyai.structures.units.time.band import ABOVE
-from moyai.structures.units.time.damping import curves_bear, with_ends_in_time
+from moyai.structures.units.time.damping import curves_matter, with_ends_in_time
 from moyai.structures.units.variables import VOCABULARY, labelled
 from moyai.structures.units.viscous import eddy_notices
 
@@ -283,7 +283,7 @@ def _time_steps(
     for sea in problem.environment.sea_states:
         found = sea_in_time(water, sea, answers[sea.name], progress)
         frequency = collected.groups[f"{root}/frequency/{sea.name}"]
-        if found.status == "converged" and ends[sea.name] and curves_bear(at, frequency, found.groups[""]):
+        if found.status == "converged" and ends[sea.name] and curves_matter(at, frequency, found.groups[""]):
             found = with_ends_in_time(water, sea, found, ends[sea.name], progress)
         for end, item in found.groups.items():
             collected.groups[f"{root}/time/{sea.name}{end}"] = item

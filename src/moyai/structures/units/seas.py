@@ -180,14 +180,14 @@ def regular_answer(
         far = far_waves(model, coarse)
         answers.append(
             SeaAnswer(
-                rest, drift, pushed, np.zeros((0, 0, at.size)), coarse, far, _picked(coarse, row, column),
+                rest, drift, pushed, np.zeros((0, 0, at.size)), coarse, far, _response_at(coarse, row, column),
                 np.zeros((0, 0)), hydro.headings[column], curves, work, converged,
             )
         )  # fmt: skip
     return answers
 
 
-def _picked(response: RowResponse, row: int, columns: IntArray) -> RowResponse:
+def _response_at(response: RowResponse, row: int, columns: IntArray) -> RowResponse:
     where = np.ix_(np.array([row]), columns)
     return RowResponse(
         response.omega[[row]], response.motion[where], response.relative[where], response.load[where],

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
 
@@ -17,9 +17,6 @@ from moyai.floating.frequency import solve_motions
 from moyai.potential.modes import rigid_modes
 from moyai.potential.solver import solve
 from moyai.structures.units.assembly import RowAtLevel
-
-if TYPE_CHECKING:
-    pass
 
 LARGEST_HEADING = math.radians(75.0)
 #: Motions of the section among those of a unit

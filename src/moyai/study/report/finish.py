@@ -51,7 +51,7 @@ def finish_study(
 
     result = assess(plan, result, plan.assessment)
     if report and plan.search is None and not plan.watch:
-        plan = _watching(plan, result)
+        plan = _with_watched_response(plan, result)
     governs = governing(plan, result, max(plan.replays, 1))
     if report:
         result = _with_replays(plan, result, governs, folder, run, progress)
@@ -68,7 +68,7 @@ def finish_study(
     return result, files
 
 
-def _watching(plan: Study, result: Result) -> Study:
+def _with_watched_response(plan: Study, result: Result) -> Study:
     """Return the study watching the response that varies most, where the file names none."""
     from moyai.study.report.page import interesting
     from moyai.study.report.reading import read_study

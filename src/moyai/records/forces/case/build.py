@@ -24,7 +24,7 @@ def load_force_record(path: Path) -> tuple[CaseDocument, ForceRecordFile]:
     Raises
     ------
     CaseError
-        With every fault at once, each with line and column.
+        With every error at once, each with line and column.
     """
     document = read_yaml(path)
     model: ForceRecordFile = read_block(document, ForceRecordFile)

@@ -57,7 +57,7 @@ def load_nets(path: str | os.PathLike[str]) -> tuple[NetCampaign, CaseDocument, 
     Raises
     ------
     CaseError
-        With every fault at once, each with line and column.
+        With every error at once, each with line and column.
 
     Examples
     --------

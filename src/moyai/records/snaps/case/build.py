@@ -23,7 +23,7 @@ def load_snaps(path: str | os.PathLike[str]) -> tuple[SnapRuns, CaseDocument]:
     Raises
     ------
     CaseError
-        With every fault at once, each with line and column.
+        With every error at once, each with line and column.
     """
     document = read_yaml(path)
     model: SnapRunsFile = read_block(document, SnapRunsFile)

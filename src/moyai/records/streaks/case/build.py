@@ -41,7 +41,7 @@ def load_streaks(path: str | os.PathLike[str]) -> tuple[StreakCampaign, CaseDocu
     Raises
     ------
     CaseError
-        With every fault at once, each with line and column: keys, times, targets, absent pictures.
+        With every error at once, each with line and column: keys, times, targets, absent pictures.
     """
     document = read_yaml(path)
     model: StreaksFile = read_block(document, StreaksFile)

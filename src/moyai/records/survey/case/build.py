@@ -1,4 +1,4 @@
-"""From a file of ``moyai measure records`` to the survey that works it off: paths, dates, degrees end here."""
+"""From a file of ``moyai measure records`` to the survey that is processed: paths, dates, degrees end here."""
 
 from __future__ import annotations
 
@@ -52,7 +52,7 @@ def load_survey(path: str | os.PathLike[str]) -> Survey:
     Raises
     ------
     CaseError
-        With every fault of the file at once, each with line and column.
+        With every error of the file at once, each with line and column.
 
     Examples
     --------

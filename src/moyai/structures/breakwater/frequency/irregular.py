@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, replace
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
 
@@ -45,10 +45,6 @@ from moyai.structures.breakwater.responses import (
 from moyai.structures.breakwater.settings import MODES
 from moyai.structures.breakwater.slow_drift import SlowDrift, combined_extremes, slow_drift
 from moyai.structures.breakwater.variables import VOCABULARY
-
-if TYPE_CHECKING:
-    pass
-
 
 MOST_TURNS = 60  # of the loop of drift and stiffness
 

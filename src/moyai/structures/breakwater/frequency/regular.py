@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
 
@@ -40,9 +40,6 @@ from moyai.structures.breakwater.responses import (
 from moyai.structures.breakwater.screening import transmission_macagno, transmission_ruol, transmission_wiegel
 from moyai.structures.breakwater.settings import MODES
 from moyai.structures.breakwater.variables import VOCABULARY
-
-if TYPE_CHECKING:
-    pass
 
 
 def operators(model: FrequencyModel, omega: Array, heading: float, seas: tuple[SeaState, ...] = ()) -> FrequencyResult:

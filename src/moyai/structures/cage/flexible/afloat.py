@@ -42,7 +42,7 @@ def floating_balance(design: CageDesign, water: Water) -> tuple[float, float]:
 
 
 def check_moored(design: CageDesign, mooring: GridMooring, water: Water, bed: Bed) -> None:
-    """Raise InputError at the first fault of a cage in a grid.
+    """Raise InputError at the first error of a cage in a grid.
 
     Raises
     ------

@@ -6,7 +6,6 @@ import math
 from collections.abc import Iterator
 from dataclasses import replace
 from functools import partial
-from typing import TYPE_CHECKING
 
 import numpy as np
 
@@ -47,10 +46,6 @@ from moyai.structures.cage.flexible.wake import ScaledCurrent
 from moyai.structures.cage.headlines import flexible_headlines
 from moyai.structures.cage.rigid.model import RigidCageWaves
 from moyai.structures.cage.rigid.waves import COMPONENTS, RigidCageWave, theory_limit, wave_of
-
-if TYPE_CHECKING:
-    pass
-
 
 # The last rests of this process in still water and in the current of the site, from which those of a draft go on
 _NEAR: dict[tuple[str, bool], tuple[State, ...]] = {}

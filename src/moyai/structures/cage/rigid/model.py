@@ -62,7 +62,7 @@ class RigidCageWaves:
     theory: RegularTheory = "linear"
 
     def waves(self) -> tuple[tuple[float, float], ...]:
-        """Return every height with every period."""
+        """Return every height with every period [m], [s]: all periods of the first height, then those of the next."""
         return tuple((height, period) for height in self.heights for period in self.periods)
 
 

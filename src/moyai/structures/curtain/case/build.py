@@ -42,7 +42,6 @@ from moyai.tables.lines import line_type
 
 #: Finer mesh of the runs of the whole span that are made without being asked for: seconds a sea.
 PEAK_CELLS = (12, 4)
-_CHAIN_DENSITY = 7850.0  # steel [kg/m3]
 _CASE = "case file"
 
 
@@ -204,7 +203,13 @@ def skirt_of(model: schema.CurtainCase, water: Water) -> Skirt:
         )
     load = toe.weight
     if load is None:
-        load = (toe.chain_mass or 0.0) * water.gravity * (1.0 - water.density / _CHAIN_DENSITY)
+        if not toe.chain_density > water.density:
+            raise InputError(
+                f"a chain of {toe.chain_density:g} kg/m3 floats",
+                path="structure.toe.chain_density",
+                allowed=f"more than {water.density:g} kg/m3",
+            )
+        load = (toe.chain_mass or 0.0) * water.gravity * (1.0 - water.density / toe.chain_density)
     try:
         return Skirt(given.length, weight, load, stiffness if stiffness is not None else math.inf)
     except InputError as error:

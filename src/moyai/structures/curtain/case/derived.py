@@ -14,6 +14,7 @@ from moyai.sea.breaking import breaking_limit
 from moyai.sea.dispersion import wave_number
 from moyai.structures.curtain.analyses.impact import impact_of, start_speed
 from moyai.structures.curtain.assembly import LevelCurtain, assemble
+from moyai.structures.curtain.case import schema
 from moyai.structures.curtain.impact.cable import closed_form, impact_numbers, peak_by_energy
 from moyai.structures.curtain.model import CurtainProblem
 from moyai.structures.curtain.seas.squared_velocity import squared_velocity
@@ -26,7 +27,7 @@ def derived_numbers(case: Case) -> tuple[Number, ...]:
     numbers: list[Number] = []
     for name, level in problem.environment.water_levels:
         unit = assemble(problem, name, level)
-        numbers.extend(_span_numbers(unit))
+        numbers.extend(_span_numbers(unit, case.model.structure.toe))
         if unit.surface_speed > 0.0:
             numbers.extend(_statics_numbers(unit))
         if "impact" in problem.settings.analyses:
@@ -35,11 +36,13 @@ def derived_numbers(case: Case) -> tuple[Number, ...]:
     return tuple(numbers)
 
 
-def _span_numbers(unit: LevelCurtain) -> Iterator[Number]:
+def _span_numbers(unit: LevelCurtain, toe: schema.Toe) -> Iterator[Number]:
     group, level, curtain, water = "Span", unit.name, unit.curtain, unit.water
     yield Number(group, level, "water depth h", water.depth, "m")
     yield Number(group, level, "span ratio R = B/l", curtain.span / curtain.length)
     yield Number(group, level, "depth ratio h/d", water.depth / curtain.skirt.length)
+    if toe.chain_mass is not None:
+        yield Number(group, level, "density of the toe chain", toe.chain_density, "kg/m3")
     yield Number(group, level, "toe load under water", curtain.skirt.toe_load, "N/m")
     yield Number(group, level, "weight of skirt and toe on the floats", unit.hanging.net_weight, "N/m")
     yield Number(

@@ -118,7 +118,11 @@ class Toe(Block):
         default=None, description="Weight in water of chain, ballast and lower cable, per length."
     )
     chain_mass: PositiveMassPerLength | None = Field(
-        default=None, description="Mass in air of a steel chain, per length; its weight in water follows."
+        default=None,
+        description="Mass in air of a chain, per length; its weight in water follows with 'chain_density'.",
+    )
+    chain_density: Density = Field(
+        default=7850.0, description="Of the chain of 'chain_mass'. Default: 7850 kg/m3, steel."
     )
     range: tuple[LowFactor, HighFactor] = Field(
         default=(0.9, 1.1),

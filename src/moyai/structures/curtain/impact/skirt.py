@@ -188,14 +188,14 @@ def skirt_impact(
     def stops(_time: float, state: Array) -> float:
         return float(state[1])
 
-    def blown(_time: float, state: Array) -> float:
+    def largest_bulge(_time: float, state: Array) -> float:
         return float(state[0]) - 0.99 * LARGEST_SAGITTA * skirt.chord
 
-    stops.terminal = blown.terminal = True  # type: ignore[attr-defined]
+    stops.terminal = largest_bulge.terminal = True  # type: ignore[attr-defined]
     stops.direction = -1.0  # type: ignore[attr-defined]
     scale = math.sqrt(ff * skirt.length / skirt.stiffness) + skirt.chord / impact.speed
     first = (start, impact.speed if variant == "literal" else speed)
-    found = solve_ivp(rate, (0.0, 20.0 * scale), first, "DOP853", rtol=1e-10, atol=1e-14, events=(stops, blown))
+    found = solve_ivp(rate, (0.0, 20.0 * scale), first, "DOP853", rtol=1e-10, atol=1e-14, events=(stops, largest_bulge))
     assert found.t_events is not None and found.y_events is not None
     if not len(found.t_events[0]):
         raise InputError(

@@ -2,12 +2,13 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable
 
 from moyai.core.results import Result
-from moyai.report.document import Block, Choice, Document, Option, Paragraph
+from moyai.report.document import Block, Choice, Document, Option
 from moyai.report.general_page import case_listing, chapters, notice_blocks, page_of
 from moyai.report.headlines import headline_figures
+from moyai.report.levels import at_each_level
 from moyai.report.reading import Group, root_of
 from moyai.structures.units.report import figures
 from moyai.structures.units.report.time import time_blocks
@@ -28,23 +29,18 @@ def compose(result: Result) -> Document:
     root = root_of(result)
     levels = tuple(child for child in root.children() if "water_depth" in child.attributes)
 
-    def at_each_level(compose_level: Callable[[Group], Sequence[Block | None]]) -> tuple[Block, ...]:
-        options = []
-        for level in levels:
-            blocks = tuple(block for block in compose_level(level) if block is not None)
-            options.append(Option(level.name, blocks or (Paragraph("Not run at this water level.", quiet=True),)))
-        if not any(not isinstance(option.blocks[0], Paragraph) for option in options):
-            return ()
-        return (Choice("water-level", "Water level", tuple(options)),)
-
     sections = chapters(
         ("summary", "Summary", lambda: (*_summary(result), *notice_blocks(result))),
-        ("row", "The row", lambda: at_each_level(_row)),
-        ("waves", "Waves around the row", lambda: at_each_level(_maps)),
-        ("connectors", "Connectors", lambda: at_each_level(lambda level: _tables(level, figures.connector_table))),
-        ("motions", "Motions", lambda: at_each_level(_motions)),
-        ("time", "Records in time", lambda: at_each_level(_records)),
-        ("lines", "Lines", lambda: at_each_level(lambda level: _tables(level, figures.line_table))),
+        ("row", "The row", lambda: at_each_level(levels, _row)),
+        ("waves", "Waves around the row", lambda: at_each_level(levels, _maps)),
+        (
+            "connectors",
+            "Connectors",
+            lambda: at_each_level(levels, lambda level: _tables(level, figures.connector_table)),
+        ),
+        ("motions", "Motions", lambda: at_each_level(levels, _motions)),
+        ("time", "Records in time", lambda: at_each_level(levels, _records)),
+        ("lines", "Lines", lambda: at_each_level(levels, lambda level: _tables(level, figures.line_table))),
         ("input", "Input", lambda: (case_listing(root),)),
     )
     return page_of(result, _subtitle(levels), sections)

@@ -29,7 +29,7 @@ if TYPE_CHECKING:
 _TENSION = "line_tension_maximum"
 
 
-def curves_bear(at: RowAtLevel, frequency: xr.Dataset, time: xr.Dataset) -> bool:
+def curves_matter(at: RowAtLevel, frequency: xr.Dataset, time: xr.Dataset) -> bool:
     """Whether a connector has a curve, or lines at rest are pulled beyond the range of their tangent.
 
     In the frequency domain with any damping of its band: where it lets lines come taut, its change is none of time.
