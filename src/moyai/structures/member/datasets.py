@@ -181,8 +181,9 @@ def time_dataset(wave: MemberWave, found: WaveForces) -> xr.Dataset:
     parts = {}
     for index, name in enumerate(CAUSES):
         parts[f"{name}_force"] = (("time", "component"), found.force[index])
-        parts[f"{name}_end_force"] = (("time", "axis"), found.held[index, :, end])
-        parts[f"{name}_bending_moment"] = (("time", "axis"), found.held[index, :, station])
+        # copies, so that the series of all other stations are let go
+        parts[f"{name}_end_force"] = (("time", "axis"), found.held[index, :, end].copy())
+        parts[f"{name}_bending_moment"] = (("time", "axis"), found.held[index, :, station].copy())
     return VOCABULARY.dataset(
         {
             "surface_elevation": ("time", found.elevation),

@@ -96,8 +96,8 @@ def march(problem: MemberProblem, member: StraightMember, wave: MemberWave) -> W
             notices.setdefault(notice.code, notice)
         for cause in range(len(CAUSES)):
             force[cause] += per_length[cause].sum(axis=1) @ axes * strips.length
+            held[cause] += rows[:, first : first + len(part.centres)] @ per_length[cause]
         whole = per_length.sum(axis=0) @ axes * strips.length
-        held += rows[:, first : first + len(part.centres)] @ per_length
         moment += np.sum(np.cross(part.centres - middle, whole), axis=1)
         found.append(numbers)
         circulations.append(gammas)
