@@ -62,15 +62,16 @@ def check_word(word: object, allowed: Iterable[object], parameter: str) -> None:
     )
 
 
-def check_kind(given: object, kind: type, parameter: str, remedy: str = "") -> None:
+def check_kind(given: object, kind: type | tuple[type, ...], parameter: str, remedy: str = "") -> None:
     """Refuse an object of another kind than the one that a call needs.
 
     Parameters
     ----------
     given : object
         What was given.
-    kind : type
-        A class, or a protocol that can be checked at run time (``SectionLike``, which a section fulfils).
+    kind : type or tuple of type
+        A class, or a protocol that can be checked at run time (``SectionLike``, which a section fulfils); or several,
+        any of which will do.
     parameter : str
         Name of the argument.
     remedy : str
@@ -82,7 +83,8 @@ def check_kind(given: object, kind: type, parameter: str, remedy: str = "") -> N
         With both kinds.
     """
     if not isinstance(given, kind):
-        name = kind.__name__.removesuffix("Like")
+        kinds = kind if isinstance(kind, tuple) else (kind,)
+        name = " or ".join(one.__name__.removesuffix("Like") for one in kinds)
         raise InputError(f"{type(given).__name__} is no {name}", path=parameter, allowed=f"a {name}", remedy=remedy)
 
 

@@ -25,7 +25,7 @@ from moyai.flexible.explicit import DRAG_BROKEN, DRAG_SHARE, LOAD_STEPS, Explici
 from moyai.flexible.explicit_rows import FASTEST, FASTEST_ATTACHED
 from moyai.flexible.flow import Flow
 from moyai.flexible.motion import Motion
-from moyai.flexible.network import Network
+from moyai.flexible.network import Network, check_network
 from moyai.flexible.numbers import whole_number
 from moyai.flexible.result import State
 from moyai.flexible.simulation import (
@@ -274,6 +274,7 @@ def simulate_together(
     >>> both.tension_peak.shape                                      # members, instants, bars [N]
     (2, 5, 10)
     """
+    check_network(network)
     start = start or State.at_rest(network)
     rows, spacing = rows_of(duration, output_step)
     check_start(network, start)

@@ -13,7 +13,7 @@ from numpy.typing import ArrayLike
 
 from moyai.core.arrays import Array, ComplexArray
 from moyai.core.errors import InputError
-from moyai.core.options import checks_words
+from moyai.core.options import check_kind, checks_words
 from moyai.core.progress import Progress, silent
 from moyai.core.validity import Notice
 from moyai.floating import kernel
@@ -268,6 +268,7 @@ def simulate(
     >>> round(float(run.position[-200:].max()), 2)                       # 2e5 / |8e5 - 2e5 - 4e5 i| [m]
     0.28
     """
+    check_kind(model, CumminsModel, "model")
     size = len(model.modes)
     if not duration > 0.0 or not math.isfinite(duration):
         raise InputError(f"duration is {duration:g} s", parameter="duration", allowed="greater than 0")
