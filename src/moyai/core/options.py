@@ -84,8 +84,9 @@ def check_kind(given: object, kind: type | tuple[type, ...], parameter: str, rem
     """
     if not isinstance(given, kind):
         kinds = kind if isinstance(kind, tuple) else (kind,)
-        name = " or ".join(one.__name__.removesuffix("Like") for one in kinds)
-        raise InputError(f"{type(given).__name__} is no {name}", path=parameter, allowed=f"a {name}", remedy=remedy)
+        names = [one.__name__.removesuffix("Like") for one in kinds]
+        allowed = " or ".join(f"a {name}" for name in names)
+        raise InputError(f"{type(given).__name__} is no {names[0]}", path=parameter, allowed=allowed, remedy=remedy)
 
 
 def checks_words(decorated: Decorated) -> Decorated:

@@ -26,6 +26,8 @@ from moyai.flexible.failures import LineFailure
 from moyai.flexible.flow import Flow
 from moyai.floating import Hydrodynamics
 from moyai.morison import Net, inertia_coefficients, panel_force, sections
+from moyai.records import TimeSource
+from moyai.records.nets.campaign import NetCampaign
 from moyai.sea import Water, breaking_limit, current, nonlinear_wave, spectra, synthesise
 from moyai.series import find_waves
 
@@ -152,6 +154,10 @@ def test_words_that_stand_in_tables_and_data() -> None:
     with pytest.raises(InputError, match="did you mean 'sway'"):
         Hydrodynamics.from_dataset(data, modes=("swya",))
     one = np.eye(2)[None]
+    with pytest.raises(InputError, match=r"form: 'numbr' is not a known word; allowed: number, iso, or a pattern"):
+        TimeSource(columns=("t",), form="numbr")
+    with pytest.raises(InputError, match=r"vibration: 'atuo' is not a known word.*did you mean 'auto'"):
+        NetCampaign("tests", None, (), (), vibration="atuo")  # type: ignore[arg-type]
     for modes in ("ab", ("sway", "sway")):
         with pytest.raises(InputError, match=r"modes: modes are .*; allowed: a tuple of names, each once"):
             Hydrodynamics(np.ones(1), one, one, np.ones((1, 1, 2), complex), np.zeros(1), modes)  # type: ignore[arg-type]
@@ -238,7 +244,7 @@ MISTAKEN: dict[str, tuple[Callable[..., Any], str]] = {
     ),
     "hull for plates": (
         lambda: potential.solve_plate_waves((PLATE, HULL), WATER, [1.0]),  # type: ignore[arg-type]
-        "plates: Hull is no Plate or PlateLine; allowed: a Plate or PlateLine",
+        "plates: Hull is no Plate; allowed: a Plate or a PlateLine",
     ),
     "section for its contour": (
         lambda: inertia_coefficients(sections.circle(1.0)),  # type: ignore[arg-type]
