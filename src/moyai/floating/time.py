@@ -257,8 +257,7 @@ def simulate(
     Examples
     --------
     >>> import numpy as np
-    >>> from moyai.floating import CumminsModel, RegularForcing, simulate
-    >>> from moyai.floating.memory import StateSpaceMemory
+    >>> from moyai.floating import CumminsModel, RegularForcing, StateSpaceMemory, simulate
     >>> one = np.eye(1)
     >>> heave = CumminsModel(2e5 * one, 8e5 * one, 4e5 * one, StateSpaceMemory.none(1), modes=("heave",))
     >>> wave = RegularForcing(1.0, 0.5, np.array([4e5 + 0j]), np.zeros(1), np.zeros(1), ramp=6.0)

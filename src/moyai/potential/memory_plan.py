@@ -124,6 +124,7 @@ def refine_frequencies(
     return values
 
 
+@checks_words
 @dataclass(frozen=True)
 class MemoryPlan:
     """Length and step of a convolution, and why."""
