@@ -33,7 +33,22 @@ SECONDS_BETWEEN_LOOKS = 0.25
 
 @dataclass(frozen=True)
 class CumminsModel:
-    """A floating body in time."""
+    """A floating body in time.
+
+    Raises
+    ------
+    InputError
+        For matrices of another size, inertia that is not positive definite, and a memory of another kind or size.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> from moyai.floating import CumminsModel, StateSpaceMemory
+    >>> one = np.eye(1)
+    >>> heave = CumminsModel(2e5 * one, 8e5 * one, 4e5 * one, StateSpaceMemory.none(1), modes=("heave",))
+    >>> float(np.sqrt(heave.stiffness / heave.inertia)[0, 0])            # natural frequency without damping [rad/s]
+    2.0
+    """
 
     #: M + A_inf, mass and infinite-frequency added mass; shape (m, m).
     inertia: Array
