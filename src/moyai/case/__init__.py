@@ -15,6 +15,7 @@ if TYPE_CHECKING:
     from moyai.case.schema import root_schema as root_schema
     from moyai.case.schema_types import Block as Block
     from moyai.case.templates import template as template
+    from moyai.case.yaml_reader import CaseDocument as CaseDocument
 else:
     __getattr__, __dir__, __all__ = exports(
         __name__,
@@ -25,5 +26,6 @@ else:
             "schema": "json_schema root_schema",
             "schema_types": "Block",
             "templates": "template",
+            "yaml_reader": "CaseDocument",
         },
     )

@@ -17,6 +17,7 @@ import yaml
 
 from moyai.case.yaml_text import decode, refuse_odd_characters, refuse_wide_signs, syntax_fault
 from moyai.core.errors import CaseError, Fault
+from moyai.core.options import checks_words
 
 KeyPath = tuple[str | int, ...]
 
@@ -60,6 +61,7 @@ class CaseDocument:
     #: See ``keys``.
     values: dict[KeyPath, Place] = field(default_factory=dict)
 
+    @checks_words
     def place(self, path: KeyPath, *, of_key: bool = False) -> Place:
         """Return the place of ``path``, or of the nearest block around it that is written in the file."""
         for length in range(len(path), -1, -1):
@@ -71,6 +73,7 @@ class CaseDocument:
                 return found
         return Place(1, 1)
 
+    @checks_words
     def fault(self, path: KeyPath, message: str, *, allowed: str = "", remedy: str = "", of_key: bool = False) -> Fault:
         """Return a fault at ``path``."""
         place = self.place(path, of_key=of_key)

@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Any
 
 from moyai.core.errors import InputError
 from moyai.core.headline import left_open
+from moyai.core.options import check_kind
 from moyai.core.progress import Progress, silent
 from moyai.core.validity import Notice
 
@@ -40,16 +41,16 @@ def run(
     Raises
     ------
     InputError
-        When the case is impossible; it names the key and its line.
+        When the case is impossible, with the key and its line, or what is given is neither a case nor a path.
     """
     from moyai.case.builder import build
+    from moyai.case.reader import Case, load_case
     from moyai.core.kinds import structure_kind
     from moyai.report.views import with_views
 
     if isinstance(case, str | Path):
-        from moyai.case.reader import load_case
-
         case = load_case(case)
+    check_kind(case, Case, "case", "give the path of a case file, or what load_case returned")
     problem = build(case) if problem is None else problem
     try:
         result = structure_kind(case.kind).run(problem, progress, keep)

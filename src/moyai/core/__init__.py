@@ -5,6 +5,7 @@ from typing import TYPE_CHECKING
 from moyai.core.exports import exports
 
 if TYPE_CHECKING:
+    from moyai.core.attachment import PointCarrier as PointCarrier
     from moyai.core.errors import CaseError as CaseError
     from moyai.core.errors import ConvergenceError as ConvergenceError
     from moyai.core.errors import Fault as Fault
@@ -18,17 +19,20 @@ if TYPE_CHECKING:
     from moyai.core.kinds import StructureKind as StructureKind
     from moyai.core.progress import Progress as Progress
     from moyai.core.results import Result as Result
+    from moyai.core.validation import ValidationCase as ValidationCase
     from moyai.core.validity import IdentityCheck as IdentityCheck
     from moyai.core.validity import Notice as Notice
 else:
     __getattr__, __dir__, __all__ = exports(
         __name__,
         {
+            "attachment": "PointCarrier",
             "errors": "CaseError ConvergenceError Fault InputError MoyaiError",
             "headline": "Band Criterion Headline Judgement Verdict",
             "kinds": "StructureKind",
             "progress": "Progress",
             "results": "Result",
+            "validation": "ValidationCase",
             "validity": "IdentityCheck Notice",
         },
     )

@@ -62,15 +62,16 @@ def check_word(word: object, allowed: Iterable[object], parameter: str) -> None:
     )
 
 
-def check_kind(given: object, kind: type, parameter: str, remedy: str = "") -> None:
+def check_kind(given: object, kind: type | tuple[type, ...], parameter: str, remedy: str = "") -> None:
     """Refuse an object of another kind than the one that a call needs.
 
     Parameters
     ----------
     given : object
         What was given.
-    kind : type
-        A class, or a protocol that can be checked at run time (``SectionLike``, which a section fulfils).
+    kind : type or tuple of type
+        A class, or a protocol that can be checked at run time (``SectionLike``, which a section fulfils); or several,
+        any of which will do.
     parameter : str
         Name of the argument.
     remedy : str
@@ -82,8 +83,10 @@ def check_kind(given: object, kind: type, parameter: str, remedy: str = "") -> N
         With both kinds.
     """
     if not isinstance(given, kind):
-        name = kind.__name__.removesuffix("Like")
-        raise InputError(f"{type(given).__name__} is no {name}", path=parameter, allowed=f"a {name}", remedy=remedy)
+        kinds = kind if isinstance(kind, tuple) else (kind,)
+        names = [one.__name__.removesuffix("Like") for one in kinds]
+        allowed = " or ".join(f"a {name}" for name in names)
+        raise InputError(f"{type(given).__name__} is no {names[0]}", path=parameter, allowed=allowed, remedy=remedy)
 
 
 def checks_words(decorated: Decorated) -> Decorated:

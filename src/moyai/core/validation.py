@@ -8,6 +8,8 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from typing import Literal
 
+from moyai.core.options import checks_words
+
 ReferenceKind = Literal["exact", "published", "measured", "other program", "own second"]
 
 #: What the words of a source tell of it, the first that fits; what none fits is exact: a closed form or an identity.
@@ -40,6 +42,7 @@ def reference_kind(source: str) -> ReferenceKind:
     return next((kind for kind, words in _WORDS if re.search(words, source)), "exact")
 
 
+@checks_words
 @dataclass(frozen=True)
 class ValidationCase:
     """One number that somebody else found, and how to compute it here."""

@@ -7,6 +7,7 @@ from moyai.core.exports import exports
 if TYPE_CHECKING:
     from moyai.coupled.equilibrium import CoupledEquilibrium as CoupledEquilibrium
     from moyai.coupled.equilibrium import find_coupled_equilibrium as find_coupled_equilibrium
+    from moyai.coupled.hulls import Lumps as Lumps
     from moyai.coupled.hulls import box_hull as box_hull
     from moyai.coupled.hulls import cylinder_hull as cylinder_hull
     from moyai.coupled.planar import PlanarBody as PlanarBody
@@ -19,9 +20,9 @@ else:
     __getattr__, __dir__, __all__ = exports(
         __name__,
         {
-            "hulls": "box_hull cylinder_hull",
-            "planar": "PlanarBody",
             "equilibrium": "CoupledEquilibrium find_coupled_equilibrium",
+            "hulls": "Lumps box_hull cylinder_hull",
+            "planar": "PlanarBody",
             "rigid": "RigidBody",
             "simulate": "CoupledHistory simulate_coupled",
             "wave_loads": "Excitation WaveLoads",

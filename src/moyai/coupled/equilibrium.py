@@ -15,7 +15,7 @@ from moyai.coupled.rigid import RigidBody, RigidCarrier
 from moyai.flexible.elements import Nodes
 from moyai.flexible.flow import Flow
 from moyai.flexible.motion import Motion
-from moyai.flexible.network import Network
+from moyai.flexible.network import Network, check_network
 from moyai.flexible.result import Equilibrium, State
 from moyai.flexible.statics import solve_equilibrium
 from moyai.flexible.stepping import SteppedNetwork, carried_nodes
@@ -134,6 +134,7 @@ def find_coupled_equilibrium(
     >>> found.residual < 1e-6, round(float(found.tension.max()) / 1000.0, 1)   # [kN]
     (True, 6.6)
     """
+    check_network(network)
     for name, body in bodies.items():
         if not isinstance(body, RigidBody):
             raise InputError(

@@ -35,6 +35,28 @@ class PlanarBody:
     ------
     InputError
         For a model of other modes, or with a memory that is not in states.
+
+    Examples
+    --------
+    A unit in calm water that a taut rope pulls towards its anchor:
+
+    >>> import numpy as np
+    >>> from moyai.coupled import PlanarBody, simulate_coupled
+    >>> from moyai.flexible import BarType, NetworkBuilder
+    >>> from moyai.floating import CumminsModel, RegularForcing, StateSpaceMemory
+    >>> from moyai.sea import Water
+    >>> inertia, stiffness, damping = (np.diag(row) for row in ([3e4, 4e4, 5e4], [5e3, 2e5, 2e5], [2e4, 8e4, 1e5]))
+    >>> model = CumminsModel(inertia, stiffness, damping, StateSpaceMemory.none(3))
+    >>> calm = RegularForcing(1.0, 0.0, np.zeros(3, complex), np.zeros(3), np.zeros(3))
+    >>> unit = PlanarBody("unit", model, calm, duration=10.0, points={"eye": (2.0, 0.0, -1.0)})
+    >>> builder = NetworkBuilder(Water(depth=10.0, density=1025.0, gravity=9.81))
+    >>> builder.fixed("anchor", (6.0, 0.0, -10.0))
+    >>> builder.driven("eye", unit.points_at_start["eye"])
+    >>> rope = BarType("rope", mass_per_length=1.0, axial_stiffness=1e5, diameter=0.03)
+    >>> builder.line("line", "anchor", "eye", rope, length=9.8, segments=4)
+    >>> run = simulate_coupled(builder.build(), {"unit": unit}, duration=10.0, output_step=0.1)
+    >>> round(float(run.bodies["unit"].position[-1, 0]), 2)              # centre of gravity from its rest [m]
+    0.03
     """
 
     name: str

@@ -24,7 +24,7 @@ from moyai.coupled.rigid import RigidCarrier
 from moyai.flexible.explicit import LOAD_STEPS
 from moyai.flexible.flow import Flow
 from moyai.flexible.motion import Motion
-from moyai.flexible.network import Network
+from moyai.flexible.network import Network, check_network
 from moyai.flexible.result import State
 from moyai.flexible.simulation import ENERGY_STOP, ENERGY_TOLERANCE
 from moyai.flexible.stepping import SteppedNetwork, StepRecord
@@ -138,6 +138,7 @@ def simulate_coupled(
     >>> found.status, found.bodies["weight"].position.shape              # rows, axes [m]
     ('converged', (5, 3))
     """
+    check_network(network)
     for name, value in (("duration", duration), ("output_step", output_step)):
         if not (math.isfinite(value) and value > 0.0):
             raise InputError(f"{name.replace('_', ' ')} is {value:g} s", parameter=name, allowed="greater than 0")

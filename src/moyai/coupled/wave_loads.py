@@ -34,6 +34,28 @@ class WaveLoads:
 
     The axes of the coefficients are those of the body at rest; radiation and restoring turn with the body, the heading
     of the waves is counted from its yaw.
+
+    Examples
+    --------
+    Heave alone; coefficients of a program come in by :meth:`from_dataset`:
+
+    >>> import numpy as np
+    >>> from moyai.coupled import WaveLoads
+    >>> from moyai.floating import StateSpaceMemory
+    >>> from moyai.sea import WaveComponents, wave_number
+    >>> force = np.zeros((2, 1, 6), complex)                             # frequencies, headings, motions [N/m]
+    >>> force[:, 0, 2] = 1.5e5, 1.2e5
+    >>> loads = WaveLoads(
+    ...     omega=np.array([0.6, 1.0]), headings=np.zeros(1), amplitude=force,
+    ...     infinite_frequency_added_mass=1e4 * np.eye(6), stiffness=np.diag([0.0, 0.0, 1.6e5, 2e5, 2e5, 0.0]),
+    ...     memory=StateSpaceMemory.none(6), displaced_volume=16.0, reference=np.zeros(3),
+    ...     equilibrium_position=np.zeros(3),
+    ... )
+    >>> omega = np.array([1.0])
+    >>> wave = WaveComponents(omega, np.array([0.5]), np.zeros(1), np.zeros(1), wave_number(omega, 10.0, 9.81))
+    >>> crest = loads.excitation(wave).force(0.0, np.zeros(3), yaw=0.0, growth=1.0)
+    >>> round(float(crest[2]))                                           # 0.5 m times 1.2e5 N/m [N]
+    60000
     """
 
     #: [rad/s]; shape (n,).

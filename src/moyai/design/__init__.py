@@ -15,6 +15,7 @@ if TYPE_CHECKING:
     from moyai.design.fatigue import dirlik_damage as dirlik_damage
     from moyai.design.fatigue import equivalent_range as equivalent_range
     from moyai.design.fatigue import life as life
+    from moyai.design.long_term import JointSea as JointSea
     from moyai.design.long_term import environmental_contour as environmental_contour
     from moyai.design.long_term import fit_joint_sea as fit_joint_sea
     from moyai.design.long_term import return_level as return_level
@@ -26,7 +27,7 @@ else:
         {
             "codes": "DesignCode LineCheck LineLoad check_line design_code",
             "fatigue": "EnduranceCurve damage dirlik_damage equivalent_range life",
-            "long_term": "environmental_contour fit_joint_sea return_level",
+            "long_term": "JointSea environmental_contour fit_joint_sea return_level",
             "similarity": "Scale scale_water",
         },
     )

@@ -11,7 +11,7 @@ from dataclasses import dataclass
 from typing import Literal
 
 from moyai.core.errors import InputError
-from moyai.core.options import check_word, checks_words
+from moyai.core.options import check_kind, check_word, checks_words
 from moyai.core.validity import Notice
 from moyai.tables.design_codes import (
     Analysis,
@@ -197,6 +197,8 @@ def check_line(load: LineLoad, code: DesignCode, *, corrosion: float = 0.0, diam
     >>> round(found.utilisation, 3)                                  # 1.67 times 1 MN over 2 MN
     0.835
     """
+    check_kind(load, LineLoad, "load")
+    check_kind(code, DesignCode, "code", "design_code(name, analysis=...) gives one")
     strength = load.breaking_load * _worn_share(corrosion, diameter)
     condition: Literal["intact", "one_lost"] = "one_lost" if load.lost else "intact"
 

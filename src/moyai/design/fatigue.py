@@ -121,28 +121,6 @@ def equivalent_range(ranges: ArrayLike, counts: ArrayLike, exponent: float, cycl
     return float((np.sum(n * r**exponent) / cycles) ** (1.0 / exponent))
 
 
-def narrow_band_damage(deviation: float, crossing_frequency: float, duration: float, curve: EnduranceCurve) -> float:
-    """Return the damage of a narrow-banded Gaussian response, whose ranges follow Rayleigh [eq:fatigue-narrow].
-
-    Parameters
-    ----------
-    deviation : float
-        Standard deviation, in the unit of the curve.
-    crossing_frequency : float
-        Mean number of up-crossings a second [Hz].
-    duration : float
-        [s].
-    curve : EnduranceCurve
-
-    Notes
-    -----
-    An upper bound for wide-banded responses; compare with :func:`dirlik_damage`.
-    """
-    m = curve.exponent
-    mean_power = (2.0 * math.sqrt(2.0) * deviation) ** m * float(gamma(1.0 + m / 2.0))
-    return float(crossing_frequency * duration * mean_power / curve.capacity)
-
-
 def dirlik_damage(moments: ArrayLike, duration: float, curve: EnduranceCurve) -> float:
     """Return the damage of a Gaussian response by Dirlik's formula [eq:fatigue-dirlik].
 
@@ -167,7 +145,8 @@ def dirlik_damage(moments: ArrayLike, duration: float, curve: EnduranceCurve) ->
 
     Notes
     -----
-    Dirlik (1985); fitted to spectra with irregularity between 0.16 and 0.99.
+    Dirlik (1985); fitted to spectra with irregularity between 0.16 and 0.99. The ranges of a narrow-banded response
+    follow Rayleigh's law, with the damage [eq:fatigue-narrow], which is an upper bound for wide bands.
 
     References
     ----------

@@ -15,7 +15,7 @@ from moyai.core.errors import InputError
 from moyai.core.options import checks_words
 from moyai.core.units import parse_unit
 from moyai.core.validity import Notice
-from moyai.sea.water import Water
+from moyai.sea.water import Water, check_water
 
 
 @dataclass(frozen=True)
@@ -229,4 +229,5 @@ def scale_water(water: Water, scale: Scale) -> Water:
     >>> model.depth, round(model.density, 6), model.gravity
     (0.4, 1000.0, 9.81)
     """
+    check_water(water)
     return Water(water.depth / scale.length, water.density / scale.density, water.gravity / scale.gravity)

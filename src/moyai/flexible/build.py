@@ -27,7 +27,7 @@ from moyai.flexible.numbers import whole_number
 from moyai.flexible.sheets import Sheets, sheet_grid
 from moyai.mooring.lines import Line, LineType, Segment
 from moyai.mooring.shape import line_shape
-from moyai.sea.water import Water
+from moyai.sea.water import Water, check_water
 
 Start = Literal["catenary", "straight"]
 
@@ -70,6 +70,11 @@ class NetworkBuilder:
     bed : Bed, optional
         Contact with the bed.
 
+    Raises
+    ------
+    InputError
+        For what is no :class:`~moyai.sea.water.Water`, a depth alone for instance.
+
     Examples
     --------
     >>> from moyai.flexible import BarType, NetworkBuilder
@@ -85,6 +90,7 @@ class NetworkBuilder:
     """
 
     def __init__(self, water: Water, bed: Bed | None = None) -> None:
+        check_water(water)
         self.water, self.bed = water, bed
         self._points: dict[str, _Point] = {}
         self._runs: list[_Run] = []

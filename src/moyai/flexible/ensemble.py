@@ -25,7 +25,7 @@ from moyai.flexible.explicit import DRAG_BROKEN, DRAG_SHARE, LOAD_STEPS, Explici
 from moyai.flexible.explicit_rows import FASTEST, FASTEST_ATTACHED
 from moyai.flexible.flow import Flow
 from moyai.flexible.motion import Motion
-from moyai.flexible.network import Network
+from moyai.flexible.network import Network, check_network
 from moyai.flexible.numbers import whole_number
 from moyai.flexible.result import State
 from moyai.flexible.simulation import (
@@ -50,7 +50,26 @@ NODES_TOGETHER = 1500
 
 @dataclass(frozen=True, eq=False)
 class Member:
-    """One run of an ensemble."""
+    """One run of an ensemble.
+
+    Examples
+    --------
+    The same motion of a fairlead in still water and in a current:
+
+    >>> from moyai.flexible import BarType, Flow, Member, Motion, NetworkBuilder, simulate_together
+    >>> from moyai.sea import Water
+    >>> surge = {"fairlead": Motion.harmonic((1.0, 0.0, 0.0), 5.0, duration=1.0)}
+    >>> members = [Member(surge), Member(surge, Flow(velocity=(0.0, 0.5, 0.0)))]
+    >>> builder = NetworkBuilder(Water(depth=60.0, density=1025.0, gravity=9.81))
+    >>> rope = BarType("rope", mass_per_length=9.0, axial_stiffness=1e7, diameter=0.04, viscosity=1e3, drag_normal=1.2)
+    >>> builder.fixed("anchor", (0.0, 0.0, -12.0))
+    >>> builder.driven("fairlead", (44.0, 0.0, -2.0))
+    >>> builder.line("rope", "anchor", "fairlead", rope, length=46.0, segments=10)
+    >>> both = simulate_together(builder.build(), members, duration=1.0, output_step=0.5)
+    >>> aside = both.position[:, -1, :, 1].max(axis=1)                   # across the rope, at the end of the run [m]
+    >>> float(aside[0]), bool(aside[1] > 0.01)
+    (0.0, True)
+    """
 
     #: One for every name in ``network.motion_names``.
     motions: Mapping[str, Motion] = field(default_factory=dict)
@@ -274,6 +293,7 @@ def simulate_together(
     >>> both.tension_peak.shape                                      # members, instants, bars [N]
     (2, 5, 10)
     """
+    check_network(network)
     start = start or State.at_rest(network)
     rows, spacing = rows_of(duration, output_step)
     check_start(network, start)

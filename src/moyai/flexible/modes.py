@@ -12,7 +12,7 @@ from moyai.core.errors import InputError
 from moyai.flexible import force_kernel as kernel
 from moyai.flexible.arrays import kernel_arrays, kernel_bed
 from moyai.flexible.flow import Flow
-from moyai.flexible.network import Network
+from moyai.flexible.network import Network, check_network
 from moyai.flexible.parts import network_parts
 from moyai.flexible.relaxation import kernel_system
 from moyai.flexible.result import State
@@ -72,6 +72,7 @@ def natural_modes(network: Network, state: State, *, count: int = 6, flow: Flow 
     >>> round(float(modes.omega[0]), 2), round(float(abs(modes.shape[0, :, 1]).max()), 6)   # [rad/s], across the span
     (1.86, 1.0)
     """
+    check_network(network)
     arrays = kernel_arrays(network)
     place = np.array(state.position)
     nodes = len(network.nodes)

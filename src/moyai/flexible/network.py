@@ -12,6 +12,7 @@ import numpy as np
 
 from moyai.core.arrays import Array
 from moyai.core.errors import InputError
+from moyai.core.options import check_kind
 from moyai.flexible.bed import Bed
 from moyai.flexible.elements import DRIVEN, FIXED, FREE, Bars, Nodes, Strand
 from moyai.flexible.mass_blocks import MassBlocks
@@ -111,6 +112,17 @@ class Network:
         np.add.at(area, self.bars.start, half)
         np.add.at(area, self.bars.end, half)
         return area
+
+
+def check_network(network: object) -> None:
+    """Refuse what is not a :class:`Network`, a builder that was not asked to build one for instance.
+
+    Raises
+    ------
+    InputError
+        With what is to be given.
+    """
+    check_kind(network, Network, "network", "call build() of the builder" if hasattr(network, "build") else "")
 
 
 def name_of_node(network: Network, node: int) -> str:

@@ -8,7 +8,7 @@ import numpy as np
 
 from moyai.core.errors import InputError
 from moyai.flexible.elements import Bars, Nodes, Strand
-from moyai.flexible.network import Network
+from moyai.flexible.network import Network, check_network
 from moyai.flexible.numbers import whole_number
 from moyai.flexible.refine_sheets import Edge, cut_in_four, edge_of, held_middles, sheet_edges
 from moyai.flexible.result import State
@@ -56,6 +56,7 @@ def refined(network: Network, factor: int, state: State | None = None) -> tuple[
     >>> len(finer.bars), state.position.shape                            # bars; nodes, axes
     (20, (21, 3))
     """
+    check_network(network)
     factor = whole_number(factor, "factor", least=1)
     if network.blocks is not None or network.panels is not None or network.rings:
         raise InputError(

@@ -15,7 +15,7 @@ from moyai.core.validity import Notice
 from moyai.core.wording import spoken
 from moyai.flexible.flow import Flow
 from moyai.flexible.motion import Motion
-from moyai.flexible.network import Network
+from moyai.flexible.network import Network, check_network
 from moyai.flexible.numbers import whole_number
 from moyai.flexible.refine import more_viscous, refined, with_viscosity
 from moyai.flexible.result import State
@@ -183,6 +183,7 @@ def peak_sensitivity(
     >>> abs(found.half_step / found.peak - 1.0) < 1e-3                   # the step matters little
     True
     """
+    check_network(network)
     bar = whole_number(bar, "bar", least=0)
     if not bar < len(network.bars):
         raise InputError(f"bar {bar}", parameter="bar", allowed=f"0 to {len(network.bars) - 1}")

@@ -19,7 +19,7 @@ from moyai.flexible.failures import LOOK, Failing, LineFailure
 from moyai.flexible.flow import Flow
 from moyai.flexible.implicit import TOLERANCE, ImplicitRun
 from moyai.flexible.motion import Motion
-from moyai.flexible.network import Network, name_of_node
+from moyai.flexible.network import Network, check_network, name_of_node
 from moyai.flexible.numbers import whole_number, whole_numbers
 from moyai.flexible.peak_notices import advice, peak_notices, stable_step
 from moyai.flexible.recovery import write_state
@@ -192,7 +192,7 @@ def simulate(
     Raises
     ------
     InputError
-        For motions that are missing, unknown or too short, and numbers out of range.
+        For what is no network, motions that are missing, unknown or too short, and numbers out of range.
 
     Examples
     --------
@@ -209,6 +209,7 @@ def simulate(
     >>> history.tension.shape                                        # instants, bars [N]
     (6, 20)
     """
+    check_network(network)
     flow = flow or Flow()
     start = start or State.at_rest(network)
     rows, interval = rows_of(duration, output_step)

@@ -15,7 +15,7 @@ from moyai.flexible.elements import FREE
 from moyai.flexible.equilibrium_diagnosis import advice, refuse_impossible
 from moyai.flexible.flow import Flow
 from moyai.flexible.motion import Motion
-from moyai.flexible.network import Network, name_of_node
+from moyai.flexible.network import Network, check_network, name_of_node
 from moyai.flexible.relaxation import Attempt, Relaxation
 from moyai.flexible.result import Equilibrium, State
 from moyai.flexible.slow_stretch import at_rest
@@ -99,6 +99,8 @@ def solve_equilibrium(
 
     Raises
     ------
+    InputError
+        For what is no network, a builder for instance.
     ConvergenceError
         When there is no equilibrium or none is found; the message names the node, the force left and what is wrong:
         what nothing holds, what sinks, rises or drifts for ever, a mechanism.
@@ -117,6 +119,7 @@ def solve_equilibrium(
     >>> round(float(found.state.position[:, 2].min()), 2)            # deepest point of the hanging rope [m]
     -4.79
     """
+    check_network(network)
     network = at_rest(network)
     place = np.array(network.nodes.position if start is None else start.position)
     fixed = network.nodes.kind != 0

@@ -87,7 +87,22 @@ class CalmWater:
 @checks_words
 @dataclass(frozen=True)
 class RegularForcing:
-    """A regular wave [eq:floating-regular-forcing]."""
+    """A regular wave [eq:floating-regular-forcing].
+
+    Raises
+    ------
+    InputError
+        For a frequency that is not positive and forces that are not finite.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> from moyai.floating import RegularForcing
+    >>> wave = RegularForcing(1.0, 0.5, np.array([4e5 + 0j]), np.zeros(1), np.array([1e4]))
+    >>> force, elevation = wave.sample(0.1, 600)                         # at every 0.1 s
+    >>> round(float(force[0, 0])), round(float(elevation[0]), 3)         # 0.5 m times 4e5 N/m and the steady force [N]
+    (210000, 0.5)
+    """
 
     #: [rad/s].
     omega: float
@@ -139,7 +154,29 @@ class RegularForcing:
 @checks_words
 @dataclass(frozen=True)
 class IrregularForcing:
-    """A sum of wave components with slow drift after Newman [eq:floating-irregular-forcing]."""
+    """A sum of wave components with slow drift after Newman [eq:floating-irregular-forcing].
+
+    Raises
+    ------
+    InputError
+        For frequencies that are not positive, values that are not finite, and drift that is missing or changes its sign
+        where the law does not allow it.
+
+    Examples
+    --------
+    The same force per metre at every frequency follows the surface; :meth:`of_sea` takes coefficients of a body:
+
+    >>> import numpy as np
+    >>> from moyai.floating import IrregularForcing
+    >>> from moyai.sea import Water, spectra, synthesise
+    >>> water = Water(depth=10.0, density=1025.0, gravity=9.81)
+    >>> sea = synthesise(spectra.jonswap(1.0, 5.0, 3.3), water, duration=600.0, seed=1)
+    >>> per_metre = np.full((len(sea.omega), 1), 1e5 + 0j)
+    >>> waves = IrregularForcing(sea.omega, sea.complex_amplitude, per_metre, None, np.zeros(1), drift_law="none")
+    >>> force, elevation = waves.sample(0.25, 2400)
+    >>> bool(np.allclose(force[:, 0], 1e5 * elevation)), round(4.0 * float(elevation.std()), 2)   # height [m]
+    (True, 1.0)
+    """
 
     #: [rad/s], any order, several headings may share a frequency; shape (k,).
     omega: Array

@@ -13,6 +13,7 @@ from numpy.typing import ArrayLike
 from moyai.core.arrays import Array, ComplexArray
 from moyai.core.errors import InputError
 from moyai.core.mixing import Mixing
+from moyai.core.options import checks_words
 from moyai.core.single import plain
 from moyai.floating.arrays import square_matrix
 from moyai.floating.coefficients import Hydrodynamics
@@ -149,6 +150,7 @@ def energy_transmission(omega: ArrayLike, transmission: ArrayLike, density: Arra
     return math.sqrt(float(weights @ power) / total)
 
 
+@checks_words
 @dataclass(frozen=True)
 class SeaMotions:
     """Motions with quadratic damping linearised for one sea."""

@@ -13,7 +13,7 @@ from numpy.typing import ArrayLike
 
 from moyai.core.arrays import Array, ComplexArray
 from moyai.core.errors import InputError
-from moyai.core.options import checks_words
+from moyai.core.options import check_kind, checks_words
 from moyai.core.progress import Progress, silent
 from moyai.core.validity import Notice
 from moyai.floating import kernel
@@ -33,7 +33,22 @@ SECONDS_BETWEEN_LOOKS = 0.25
 
 @dataclass(frozen=True)
 class CumminsModel:
-    """A floating body in time."""
+    """A floating body in time.
+
+    Raises
+    ------
+    InputError
+        For matrices of another size, inertia that is not positive definite, and a memory of another kind or size.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> from moyai.floating import CumminsModel, StateSpaceMemory
+    >>> one = np.eye(1)
+    >>> heave = CumminsModel(2e5 * one, 8e5 * one, 4e5 * one, StateSpaceMemory.none(1), modes=("heave",))
+    >>> float(np.sqrt(heave.stiffness / heave.inertia)[0, 0])            # natural frequency without damping [rad/s]
+    2.0
+    """
 
     #: M + A_inf, mass and infinite-frequency added mass; shape (m, m).
     inertia: Array
@@ -257,8 +272,7 @@ def simulate(
     Examples
     --------
     >>> import numpy as np
-    >>> from moyai.floating import CumminsModel, RegularForcing, simulate
-    >>> from moyai.floating.memory import StateSpaceMemory
+    >>> from moyai.floating import CumminsModel, RegularForcing, StateSpaceMemory, simulate
     >>> one = np.eye(1)
     >>> heave = CumminsModel(2e5 * one, 8e5 * one, 4e5 * one, StateSpaceMemory.none(1), modes=("heave",))
     >>> wave = RegularForcing(1.0, 0.5, np.array([4e5 + 0j]), np.zeros(1), np.zeros(1), ramp=6.0)
@@ -268,6 +282,7 @@ def simulate(
     >>> round(float(run.position[-200:].max()), 2)                       # 2e5 / |8e5 - 2e5 - 4e5 i| [m]
     0.28
     """
+    check_kind(model, CumminsModel, "model")
     size = len(model.modes)
     if not duration > 0.0 or not math.isfinite(duration):
         raise InputError(f"duration is {duration:g} s", parameter="duration", allowed="greater than 0")

@@ -139,6 +139,8 @@ def edge_damping(
 ) -> QuadraticDamping:
     """Return the quadratic damping of a unit by eddies at its edges [eq:viscous-edge] [eq:viscous-plate].
 
+    A sharp-cornered box that rolls about the still water has what Ikeda gives for a barge [eq:viscous-barge].
+
     Parameters
     ----------
     corners : tuple of CornerEdge
@@ -198,31 +200,6 @@ def water_measure(
             upward = -1j * decay * (down - mirrored)
             out[..., column] += weight * (direction[0] * across + direction[1] * upward)
     return out
-
-
-def sharp_box_roll_damping(
-    beam: float, draught: float, axis_depth: float, density: float, edge_pressure: float
-) -> float:
-    """Return b2 per length of a sharp-cornered box that rolls, by Ikeda's formula [eq:viscous-barge].
-
-    Parameters
-    ----------
-    beam, draught : float
-        [m].
-    axis_depth : float
-        Roll axis below still water [m].
-    density : float
-        [kg/m3].
-    edge_pressure : float
-        C_p, 1.5 in Ikeda's formula.
-
-    Returns
-    -------
-    float
-        [N s2] per metre of unit, b2 of the moment b2 |theta'| theta'.
-    """
-    half, above = beam / (2.0 * draught), 1.0 - axis_depth / draught
-    return 0.5 * density * edge_pressure * draught**4 * (half**2 + above) * (half**2 + above**2)
 
 
 def lewis_parameters(half_beam_over_draught: float, area_coefficient: float) -> tuple[float, float]:

@@ -8,6 +8,7 @@ if TYPE_CHECKING:
     from moyai.interop.aqwa import read_aqwa as read_aqwa
     from moyai.interop.bemio import read_bemio as read_bemio
     from moyai.interop.capytaine import read_capytaine as read_capytaine
+    from moyai.interop.moordyn_output import MoorDynOutput as MoorDynOutput
     from moyai.interop.moordyn_output import read_output as read_output
     from moyai.interop.nemoh import read_nemoh as read_nemoh
     from moyai.interop.read import read_coefficients as read_coefficients
@@ -22,7 +23,7 @@ else:
             "aqwa": "read_aqwa",
             "bemio": "read_bemio",
             "capytaine": "read_capytaine",
-            "moordyn_output": "read_output",
+            "moordyn_output": "MoorDynOutput read_output",
             "nemoh": "read_nemoh",
             "read": "read_coefficients",
             "wamit": "read_wamit",

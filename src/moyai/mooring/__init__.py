@@ -5,6 +5,7 @@ from typing import TYPE_CHECKING
 from moyai.core.exports import exports
 
 if TYPE_CHECKING:
+    from moyai.mooring.anchors import AnchorCheck as AnchorCheck
     from moyai.mooring.anchors import DragAnchor as DragAnchor
     from moyai.mooring.anchors import Sinker as Sinker
     from moyai.mooring.anchors import check_drag_anchor as check_drag_anchor
@@ -26,7 +27,7 @@ else:
     __getattr__, __dir__, __all__ = exports(
         __name__,
         {
-            "anchors": "DragAnchor Sinker check_drag_anchor check_sinker",
+            "anchors": "AnchorCheck DragAnchor Sinker check_drag_anchor check_sinker",
             "catenary": "CatenarySolution solve_catenary",
             "lines": "Clump Line LineState LineType Segment SpringLine",
             "shape": "LineShape line_shape",

@@ -9,6 +9,8 @@ if TYPE_CHECKING:
     from moyai.morison.circulation import CirculationLaw as CirculationLaw
     from moyai.morison.coefficients import CoefficientRule as CoefficientRule
     from moyai.morison.coefficients import Conditions as Conditions
+    from moyai.morison.coefficients import KeuleganCarpenterTable as KeuleganCarpenterTable
+    from moyai.morison.contour import Contour as Contour
     from moyai.morison.forces import StripForces as StripForces
     from moyai.morison.forces import strip_forces as strip_forces
     from moyai.morison.inertia import InertiaCoefficients as InertiaCoefficients
@@ -26,12 +28,13 @@ else:
         {
             "": "sections",
             "circulation": "CirculationLaw",
-            "coefficients": "CoefficientRule Conditions",
+            "coefficients": "CoefficientRule Conditions KeuleganCarpenterTable",
+            "contour": "Contour",
             "forces": "StripForces strip_forces",
             "inertia": "InertiaCoefficients inertia_coefficients",
             "members": "StraightMember",
-            "net_law_names": "available_net_laws net_law",
             "net_law_base": "NetLaw panel_force",
+            "net_law_names": "available_net_laws net_law",
             "nets": "Net",
             "sections": "MemberSection",
         },

@@ -16,6 +16,7 @@ from numpy.typing import NDArray
 
 from moyai.core.arrays import Array, ComplexArray
 from moyai.core.errors import ConvergenceError
+from moyai.core.options import check_kind
 from moyai.core.validity import IdentityCheck
 from moyai.morison.contour import Contour
 
@@ -80,6 +81,8 @@ def inertia_coefficients(contour: Contour, *, accuracy: float = 1e-7) -> Inertia
 
     Raises
     ------
+    InputError
+        For what is no contour, a section for instance.
     ConvergenceError
         When the tensor changes by more than a tenth of a per cent on refinement or is not symmetric to that.
 
@@ -90,6 +93,7 @@ def inertia_coefficients(contour: Contour, *, accuracy: float = 1e-7) -> Inertia
     >>> circle.tensor.diagonal().round(6).tolist()                   # C_M = 2 in every direction
     [2.0, 2.0]
     """
+    check_kind(contour, Contour, "contour", "take the contour of the section: section.contour")
     bulges = np.asarray(contour.bulges, dtype=float)
     return _remembered(contour.vertices.tobytes(), bulges.tobytes(), accuracy)
 

@@ -16,6 +16,7 @@ from numpy.typing import ArrayLike
 
 from moyai.core.arrays import Array
 from moyai.core.errors import InputError
+from moyai.core.options import check_kind
 from moyai.core.validity import Notice
 from moyai.morison.nets import Net
 
@@ -184,6 +185,8 @@ def panel_force(
     >>> force.round().tolist()
     [217.0, 0.0, 0.0]
     """
+    check_kind(law, NetLaw, "law", "net_law(name) gives one")
+    check_kind(net, Net, "net")
     flow = np.asarray(velocity, dtype=float)
     across = np.asarray(normal, dtype=float)
     length = float(np.linalg.norm(across))

@@ -11,7 +11,7 @@ from numpy.typing import ArrayLike
 from moyai.core.arrays import Array
 from moyai.core.options import checks_words
 from moyai.potential.oscillatory import power_tail
-from moyai.sea.water import Water
+from moyai.sea.water import Water, check_water
 
 TailKind = Literal["zero", "negligible", "theory", "series", "power"]
 
@@ -101,6 +101,7 @@ def wall_sided_tails(water: Water, centre_height: float) -> tuple[TailTheory, ..
     >>> tails[0].exponents, round(tails[0].coefficients[0])              # sway: 4 rho g^2 omega^-3 [kg/(m s4)]
     ((3.0,), 394568)
     """
+    check_water(water)
     rho, g, z = water.density, water.gravity, centre_height
     # Moment of exp(K z)(z - centre) over the wall: -(centre/K + 1/K^2)
     sway = TailTheory((0, 0), (3.0,), (4.0 * rho * g**2,))

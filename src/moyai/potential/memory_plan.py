@@ -13,7 +13,7 @@ from moyai.core.errors import InputError
 from moyai.core.options import checks_words
 from moyai.potential.damping_model import DampingModel, Start
 from moyai.potential.memory import local_errors, pair_measure
-from moyai.sea.water import Water
+from moyai.sea.water import Water, check_water
 
 #: Measured on random rectangles (docs/validation/memory.md): spacing and end that leave 1e-3 of the largest K, and less
 _STEP_AT_REFERENCE = 0.1
@@ -73,6 +73,7 @@ def recommend_frequencies(
     >>> len(plan.omega), round(float(plan.omega[0]), 3), round(float(plan.omega[-1]), 1)   # [rad/s]
     (42, 0.03, 9.9)
     """
+    check_water(water)
     for name, value in (("breadth", breadth), ("wall_height", wall_height)):
         if not (math.isfinite(value) and value > 0.0):
             raise InputError(f"{name} is {value:g}", parameter=name, allowed="greater than 0")
@@ -123,6 +124,7 @@ def refine_frequencies(
     return values
 
 
+@checks_words
 @dataclass(frozen=True)
 class MemoryPlan:
     """Length and step of a convolution, and why."""

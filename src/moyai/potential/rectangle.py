@@ -22,7 +22,7 @@ from moyai.potential.rectangle_basis import GapBasis
 from moyai.potential.rectangle_fields import Fields, inner_region, solve_fields
 from moyai.potential.rectangle_outer import outer_kernel
 from moyai.sea.dispersion import group_velocity, wave_number
-from moyai.sea.water import Water
+from moyai.sea.water import Water, check_water
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -210,6 +210,7 @@ def solve_rectangle(
     >>> found.added_mass.shape, round(float(abs(found.transmission_coefficient[0, 0])), 4)   # [kg/m], [-]
     ((1, 3, 3), 0.7253)
     """
+    check_water(water)
     frequencies, headings = _checked(beam, draught, water, omega, centre, heading)
     gap = water.depth - draught
     k = np.atleast_1d(np.asarray(wave_number(frequencies, water.depth, water.gravity), dtype=float))

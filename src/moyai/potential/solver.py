@@ -32,7 +32,7 @@ from moyai.potential.sections import Section
 from moyai.potential.solution import RadiationDiffraction
 from moyai.potential.system import SymmetryBlock, reduce_blocks
 from moyai.sea.dispersion import wave_number as linear_wave_number
-from moyai.sea.water import Water
+from moyai.sea.water import Water, check_water
 
 # How often the panels are refined when an identity misses its tolerance
 _ATTEMPTS = 4
@@ -97,6 +97,7 @@ def solve(
     >>> energy[:, 0].round(3).tolist()                               # of the section held fixed
     [1.0, 1.0]
     """
+    check_water(water)
     check_arguments(section, modes)
     frequencies = check_frequencies(omega)
     headings = check_headings(heading)

@@ -16,11 +16,11 @@ import numpy as np
 
 from moyai.core.arrays import Array, ComplexArray
 from moyai.core.errors import InputError
-from moyai.core.options import checks_words
+from moyai.core.options import check_kind, checks_words
 from moyai.potential.edges import arc_position, arc_slope, as_points
 from moyai.potential.modes import DisplacementField, Modes, rigid_modes
 from moyai.potential.thin_plate_grid import PlateGrid, plate_grid, with_tails
-from moyai.sea.water import Water
+from moyai.sea.water import Water, check_water
 
 #: Normal velocity (n,) at points (n, 2) with unit normals (n, 2), for unit amplitude of a mode
 NormalVelocity = Callable[[Array, Array], Array]
@@ -215,6 +215,8 @@ def solve_plate_limit(
     >>> round(float(solve_plate_limit(plate, water, frequency="zero").added_mass[0, 0]), 1)
     6283.2
     """
+    check_kind(plate, Plate, "plate", "give Plate(start, end)")
+    check_water(water)
     velocities = _velocities_of(modes)
     stands = _stands_on_bed(plate, water)
     if frequency == "zero" and stands:

@@ -14,6 +14,7 @@ from numpy.typing import ArrayLike
 
 from moyai.core.arrays import Array, ComplexArray
 from moyai.core.errors import InputError
+from moyai.core.options import check_kind
 from moyai.core.validity import IdentityCheck
 from moyai.potential.damping_tail import TailTheory
 from moyai.potential.drift import FarFieldDrift, NearFieldDrift, mean_drift_far_field, mean_drift_near_field
@@ -238,7 +239,7 @@ def solve_plate_waves(
     Raises
     ------
     InputError
-        For plates without length, that cross, or that are deeper than the water.
+        For what is no plate, and plates without length, that cross, or that are deeper than the water.
 
     Examples
     --------
@@ -250,6 +251,8 @@ def solve_plate_waves(
     0.93
     """
     group = plates if isinstance(plates, tuple) else (plates,)
+    for plate in group:
+        check_kind(plate, (Plate, PlateLine), "plates", "give Plate(start, end)")
     section = plate_section(*group)
     motion = rigid_modes((0.0, 0.0)) if modes is None else modes
     solution = solve(section, water, omega, modes=motion, accuracy=accuracy)

@@ -18,7 +18,7 @@ from moyai.core.arrays import Array, ComplexArray
 from moyai.core.errors import InputError
 from moyai.sea.dispersion import evanescent_wave_numbers
 from moyai.sea.dispersion import wave_number as linear_wave_number
-from moyai.sea.water import Water
+from moyai.sea.water import Water, check_water
 
 
 @dataclass(frozen=True, eq=False)
@@ -75,6 +75,7 @@ def solve_vertical_barrier(
     >>> round(float(energy), 6)
     1.0
     """
+    check_water(water)
     depth = water.depth
     if not math.isfinite(depth):
         raise InputError(

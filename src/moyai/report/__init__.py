@@ -11,6 +11,7 @@ if TYPE_CHECKING:
     from moyai.report.document import Figure as Figure
     from moyai.report.document import Series as Series
     from moyai.report.document import Table as Table
+    from moyai.report.views import ReportedResult as ReportedResult
     from moyai.report.writer import compose_document as compose_document
     from moyai.report.writer import write_report as write_report
 else:
@@ -18,6 +19,7 @@ else:
         __name__,
         {
             "document": "Column Document Figure Chapter Series Table",
+            "views": "ReportedResult",
             "writer": "compose_document write_report",
         },
     )

@@ -5,6 +5,7 @@ from typing import TYPE_CHECKING
 from moyai.core.exports import exports
 
 if TYPE_CHECKING:
+    from moyai.reproduce.model import Paper as Paper
     from moyai.reproduce.page import compose as compose
     from moyai.reproduce.reproduction import Reproduction as Reproduction
     from moyai.reproduce.reproduction import paper as paper
@@ -15,6 +16,7 @@ else:
     __getattr__, __dir__, __all__ = exports(
         __name__,
         {
+            "model": "Paper",
             "page": "compose",
             "reproduction": "Reproduction paper papers reproduce",
             "stored": "as_result",

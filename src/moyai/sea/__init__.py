@@ -7,7 +7,9 @@ from moyai.core.exports import exports
 if TYPE_CHECKING:
     from moyai.sea import current as current
     from moyai.sea import spectra as spectra
+    from moyai.sea.breaking import BreakingLimit as BreakingLimit
     from moyai.sea.breaking import breaking_limit as breaking_limit
+    from moyai.sea.components import WaveComponents as WaveComponents
     from moyai.sea.current import CurrentProfile as CurrentProfile
     from moyai.sea.directional import CosinePower as CosinePower
     from moyai.sea.directional import CosineTwoS as CosineTwoS
@@ -21,6 +23,7 @@ if TYPE_CHECKING:
     from moyai.sea.dispersion import wave_number_in_current as wave_number_in_current
     from moyai.sea.irregular import synthesise as synthesise
     from moyai.sea.nonlinear import nonlinear_wave as nonlinear_wave
+    from moyai.sea.permanent_wave import NonlinearWave as NonlinearWave
     from moyai.sea.regular import RegularWave as RegularWave
     from moyai.sea.spectrum import Spectrum as Spectrum
     from moyai.sea.water import Water as Water
@@ -29,12 +32,14 @@ else:
         __name__,
         {
             "": "current spectra",
-            "breaking": "breaking_limit",
+            "breaking": "BreakingLimit breaking_limit",
+            "components": "WaveComponents",
             "current": "CurrentProfile",
             "directional": "CosinePower CosineTwoS Mitsuyasu Spreading WrappedNormal",
             "dispersion": "angular_frequency group_velocity phase_velocity wave_number wave_number_in_current",
             "irregular": "synthesise",
             "nonlinear": "nonlinear_wave",
+            "permanent_wave": "NonlinearWave",
             "regular": "RegularWave",
             "spectrum": "Spectrum",
             "water": "Water",

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 
 from moyai.core.errors import InputError
 from moyai.sea import dispersion
-from moyai.sea.water import Water
+from moyai.sea.water import Water, check_water
 
 
 @dataclass(frozen=True)
@@ -47,6 +47,7 @@ def highest_steady_wave(wavelength: float, water_depth: float) -> float:
 
 def linear_wavelength(period: float, water: Water, current_along_wave: float = 0.0) -> float:
     """Return the wavelength [m] of linear theory for a period [s] in the fixed frame."""
+    check_water(water)
     if not (math.isfinite(period) and period > 0.0):
         raise InputError(f"wave period is {period:g} s", parameter="period", allowed="greater than 0 s")
     omega = 2.0 * math.pi / period

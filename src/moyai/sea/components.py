@@ -33,8 +33,7 @@ class WaveComponents:
     Examples
     --------
     >>> import numpy as np
-    >>> from moyai.sea import Water, wave_number
-    >>> from moyai.sea.components import WaveComponents
+    >>> from moyai.sea import Water, WaveComponents, wave_number
     >>> water = Water(depth=10.0, density=1025.0, gravity=9.81)
     >>> omega = np.array([0.8, 1.2])
     >>> sea = WaveComponents(

@@ -17,7 +17,7 @@ from numpy.typing import ArrayLike
 from moyai.core.arrays import Array
 from moyai.core.errors import InputError
 from moyai.core.single import plain
-from moyai.sea.water import Water
+from moyai.sea.water import Water, check_water
 
 _NODES, _WEIGHTS = np.polynomial.legendre.leggauss(16)
 
@@ -286,6 +286,7 @@ def power_law(surface_speed: float, exponent: float, heading: float, water: Wate
     >>> round(tide.speed(-5.0), 4), tide.speed(0.0)                      # 0.5^(1/7), at mid-depth and surface [m/s]
     (0.9057, 1.0)
     """
+    check_water(water)
     _check_finite(surface_speed=surface_speed, heading=heading)
     if not (math.isfinite(exponent) and exponent > 0.0):
         raise InputError(f"exponent is {exponent:g}", parameter="exponent", allowed="greater than 0, for example 1/7")

@@ -20,7 +20,7 @@ from moyai.sea.directional import Spreading, wrapped
 from moyai.sea.spectrum import Spectrum
 from moyai.sea.states import IrregularSea
 from moyai.sea.synthesis import choose_band, equal_energy_bins, fourier_bins, uniform_numbers
-from moyai.sea.water import Water
+from moyai.sea.water import Water, check_water
 
 __all__ = ["WaveComponents", "components_of_run", "realisation_seed", "synthesise"]
 
@@ -111,6 +111,7 @@ def synthesise(
     >>> sea.elevation([0.0, 1.0, 2.0], 0.0, 0.0).shape               # [m] at three instants at the origin
     (3,)
     """
+    check_water(water)
     if spreading is not None:
         check_kind(spreading, Spreading, "spreading", "give one of moyai.sea.directional")
     _check_request(duration, seed, method, count, summation, heading_count, amplitudes)

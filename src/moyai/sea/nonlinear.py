@@ -21,7 +21,7 @@ from moyai.sea import dispersion
 from moyai.sea.breaking import highest_steady_wave
 from moyai.sea.permanent_wave import RESIDUAL, NonlinearWave, Theory
 from moyai.sea.stream_function import StreamFunctionProblem, StreamFunctionSolution, solve_stream_function
-from moyai.sea.water import Water
+from moyai.sea.water import Water, check_water
 
 __all__ = ["NonlinearWave", "Theory", "nonlinear_wave", "stokes_coefficients"]
 
@@ -229,6 +229,7 @@ def nonlinear_wave(
     >>> round(float(wave.elevation(0.0, 0.0, 0.0)), 2)               # the crest is higher than half the height [m]
     1.12
     """
+    check_water(water)
     _check_arguments(theory, height, period, wavelength, order, current_along_wave, solver)
 
     def finish(solution: _Solution, length: float, number: int) -> NonlinearWave:

@@ -14,7 +14,7 @@ from moyai.core.options import checks_words
 from moyai.sea import spectral_integrals as integrals
 from moyai.sea.spectrum import Spectrum, WindSeaShape, depth_function
 from moyai.sea.spectrum_file import read_spectrum_file, spectrum_table
-from moyai.sea.water import Water
+from moyai.sea.water import Water, check_water
 
 __all__ = [
     "Spectrum",
@@ -377,6 +377,7 @@ def tma(
     >>> round(offshore.significant_height, 2)                            # less in shallow water [m]
     1.19
     """
+    check_water(water)
     if height_at not in ("site", "deep water"):
         raise InputError(f"unknown height_at {height_at!r}", parameter="height_at", allowed="site, deep water")
     deep = jonswap(significant_height, peak_period, peak_enhancement).shapes[0]

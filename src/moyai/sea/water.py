@@ -6,6 +6,7 @@ import math
 from dataclasses import dataclass, replace
 
 from moyai.core.errors import InputError
+from moyai.core.options import check_kind
 
 
 @dataclass(frozen=True)
@@ -43,3 +44,14 @@ class Water:
     def with_depth(self, depth: float) -> Water:
         """Return the same water at another depth."""
         return replace(self, depth=depth)
+
+
+def check_water(water: object) -> None:
+    """Refuse what is not :class:`Water`, a depth alone for instance.
+
+    Raises
+    ------
+    InputError
+        With what is to be given.
+    """
+    check_kind(water, Water, "water", "give Water(depth=..., density=..., gravity=...)")

@@ -30,6 +30,7 @@ _SIZE_IN_TITLE = re.compile(r" \((?:model|prototype of) 1:[0-9.e+]+\)$")
 _SHOWN = ("m", "s", "m/s", "kg", "N", "N/m", "kg/m", "Pa", "N m", "kg m2")
 
 
+@checks_words
 @dataclass(frozen=True)
 class ScaledCase:
     """A case file in another size."""

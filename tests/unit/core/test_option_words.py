@@ -15,17 +15,20 @@ import pytest
 import xarray as xr
 
 import moyai
-from moyai import floating, potential
+from moyai import flexible, floating, potential
 from moyai.case import root_schema
 from moyai.core.errors import InputError
 from moyai.core.options import _rules, check_word, checks_words
-from moyai.coupled import RigidBody, simulate_coupled
-from moyai.design import design_code
+from moyai.coupled import RigidBody, find_coupled_equilibrium, simulate_coupled
+from moyai.design import LineLoad, Scale, check_line, design_code, scale_water
 from moyai.flexible import BarType, NetworkBuilder
 from moyai.flexible.failures import LineFailure
 from moyai.flexible.flow import Flow
 from moyai.floating import Hydrodynamics
-from moyai.sea import Water, spectra, synthesise
+from moyai.morison import Net, inertia_coefficients, panel_force, sections
+from moyai.records import TimeSource
+from moyai.records.nets.campaign import NetCampaign
+from moyai.sea import Water, breaking_limit, current, nonlinear_wave, spectra, synthesise
 from moyai.series import find_waves
 
 
@@ -151,6 +154,10 @@ def test_words_that_stand_in_tables_and_data() -> None:
     with pytest.raises(InputError, match="did you mean 'sway'"):
         Hydrodynamics.from_dataset(data, modes=("swya",))
     one = np.eye(2)[None]
+    with pytest.raises(InputError, match=r"form: 'numbr' is not a known word; allowed: number, iso, or a pattern"):
+        TimeSource(columns=("t",), form="numbr")
+    with pytest.raises(InputError, match=r"vibration: 'atuo' is not a known word.*did you mean 'auto'"):
+        NetCampaign("tests", None, (), (), vibration="atuo")  # type: ignore[arg-type]
     for modes in ("ab", ("sway", "sway")):
         with pytest.raises(InputError, match=r"modes: modes are .*; allowed: a tuple of names, each once"):
             Hydrodynamics(np.ones(1), one, one, np.ones((1, 1, 2), complex), np.zeros(1), modes)  # type: ignore[arg-type]
@@ -175,6 +182,11 @@ def test_what_moves_already_is_a_body_of_the_run() -> None:
 
 WATER = Water(depth=10.0, density=1025.0, gravity=9.81)
 HULL = potential.shapes.rectangle(beam=4.0, height=2.0)
+PLATE = potential.Plate((0.0, 0.0), (0.0, -2.0))
+NET = Net(twine_diameter=0.003, mesh_pitch=0.04)
+LOAD = LineLoad("line 1", maximum_tension=1e6, mean_tension=4e5, breaking_load=2e6, component="chain")
+BUILDER: Any = NetworkBuilder(WATER)
+DEPTH: Any = 10.0
 SECTION = HULL.immersed(draught=1.0)
 BODY = {"mass": 4100.0, "centre_of_gravity": (0.0, -0.2), "length": 1.0, "density": 1025.0, "gravity": 9.81}
 SEA = spectra.jonswap(significant_height=2.0, peak_period=7.0, peak_enhancement=3.3)
@@ -226,6 +238,38 @@ MISTAKEN: dict[str, tuple[Callable[..., Any], str]] = {
         lambda: synthesise(SEA, WATER, duration=100.0, seed=1, spreading="cos2"),  # type: ignore[arg-type]
         "spreading: str is no Spreading",
     ),
+    "hull for a plate": (
+        lambda: potential.solve_plate_limit(HULL, WATER),  # type: ignore[arg-type]
+        r"plate: Hull is no Plate; allowed: a Plate; give Plate\(start, end\)",
+    ),
+    "hull for plates": (
+        lambda: potential.solve_plate_waves((PLATE, HULL), WATER, [1.0]),  # type: ignore[arg-type]
+        "plates: Hull is no Plate; allowed: a Plate or a PlateLine",
+    ),
+    "section for its contour": (
+        lambda: inertia_coefficients(sections.circle(1.0)),  # type: ignore[arg-type]
+        "contour: MemberSection is no Contour; .*section.contour",
+    ),
+    "name for a law": (
+        lambda: panel_force("loland", NET, [1.0, 0.0, 0.0], TIME[:3], area=1.0, density=1e3, viscosity=1e-6),  # type: ignore[arg-type]
+        r"law: str is no NetLaw; .*net_law\(name\)",
+    ),
+    "name for a code": (
+        lambda: check_line(LOAD, "ISO 19901-7"),  # type: ignore[arg-type]
+        "code: str is no DesignCode; .*design_code",
+    ),
+    "code before the load": (
+        lambda: check_line(design_code("ISO 19901-7", analysis="dynamic"), LOAD),  # type: ignore[arg-type]
+        "load: DesignCode is no LineLoad",
+    ),
+    "model of a body": (
+        lambda: floating.simulate(HULL, None, duration=1.0),  # type: ignore[arg-type]
+        "model: Hull is no CumminsModel",
+    ),
+    "nothing for a case": (
+        lambda: moyai.run(None),  # type: ignore[arg-type]
+        "case: NoneType is no Case; .*path of a case file",
+    ),
     "word for a velocity": (
         lambda: Flow(velocity="east"),  # type: ignore[arg-type]
         "velocity of the flow is east; allowed: three finite numbers",
@@ -236,4 +280,48 @@ MISTAKEN: dict[str, tuple[Callable[..., Any], str]] = {
 @pytest.mark.parametrize(("call", "message"), MISTAKEN.values(), ids=MISTAKEN)
 def test_another_kind_of_object_is_refused(call: Callable[..., Any], message: str) -> None:
     with pytest.raises(InputError, match=message):
+        call()
+
+
+#: Calls that take a network, given its builder.
+UNBUILT: tuple[Callable[[], Any], ...] = (
+    lambda: flexible.solve_equilibrium(BUILDER),
+    lambda: flexible.simulate(BUILDER, duration=1.0, output_step=0.1),
+    lambda: flexible.simulate_together(BUILDER, [], duration=1.0, output_step=0.1),
+    lambda: flexible.natural_modes(BUILDER, BUILDER),
+    lambda: flexible.peak_sensitivity(BUILDER, bar=0),
+    lambda: flexible.refined(BUILDER, 2),
+    lambda: find_coupled_equilibrium(BUILDER, {}),
+    lambda: simulate_coupled(BUILDER, {}, duration=1.0, output_step=0.1),
+)
+
+
+@pytest.mark.parametrize("call", UNBUILT)
+def test_a_network_that_is_not_built_is_refused(call: Callable[[], Any]) -> None:
+    with pytest.raises(InputError, match=r"network: NetworkBuilder is no Network; .*; call build\(\) of the builder"):
+        call()
+
+
+#: Calls that take the water, given its depth.
+DEPTHS: tuple[Callable[[], Any], ...] = (
+    lambda: NetworkBuilder(DEPTH),
+    lambda: potential.solve(SECTION, DEPTH, [1.0], modes=potential.rigid_modes((0.0, 0.0))),
+    lambda: potential.solve_plate_limit(PLATE, DEPTH),
+    lambda: potential.solve_plate_waves(PLATE, DEPTH, [1.0]),
+    lambda: potential.solve_rectangle(4.0, 1.0, DEPTH, [1.0], centre=(0.0, 0.0)),
+    lambda: potential.solve_vertical_barrier(1.0, DEPTH, [1.0]),
+    lambda: potential.recommend_frequencies(DEPTH, breadth=4.0, wall_height=1.0),
+    lambda: potential.wall_sided_tails(DEPTH, -0.2),
+    lambda: breaking_limit(6.0, DEPTH),
+    lambda: nonlinear_wave("stokes", height=1.0, water=DEPTH, period=6.0),
+    lambda: synthesise(SEA, DEPTH, duration=100.0, seed=1),
+    lambda: spectra.tma(2.0, 8.0, 3.3, DEPTH),
+    lambda: current.power_law(1.0, 0.2, 0.0, DEPTH),
+    lambda: scale_water(DEPTH, Scale(length=25.0, density=1.0, gravity=1.0)),
+)
+
+
+@pytest.mark.parametrize("call", DEPTHS)
+def test_a_number_for_the_water_is_refused(call: Callable[[], Any]) -> None:
+    with pytest.raises(InputError, match=r"water: float is no Water; .*; give Water\(depth=.*\)"):
         call()

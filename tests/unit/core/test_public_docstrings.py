@@ -174,6 +174,7 @@ def test_what_users_make_by_hand_has_an_example():
     names = {name.rsplit(".", 1)[1] for name in CLASSES}
     assert len(names) >= 50
     assert names >= {"Hull", "Section", "Water", "Line", "Segment", "BarType", "NetworkBuilder", "RigidCage", "Net"}
+    assert names >= {"PlanarBody", "WaveLoads", "CumminsModel", "RegularForcing", "IrregularForcing", "Member"}
     assert names >= {"WaveComponents", "Spectrum", "DesignCode", "LineLoad", "RigidBody", "Hydrodynamics", "Flow"}
 
 

@@ -105,6 +105,13 @@ def test_dates_without_a_format_ask_for_one(tmp_path: Path) -> None:
     assert "line 2" in reported(error) and "time.format" in reported(error)
 
 
+def test_a_word_that_is_no_format_of_time_is_refused_before_the_files_are_read(tmp_path: Path) -> None:
+    with pytest.raises(
+        CaseError, match=r"time\.format: 'numbr' is not a known word; allowed: number, iso, or a pattern"
+    ):
+        survey_of(tmp_path, "dates.csv", "no table at all", time="{column: time, format: numbr}")
+
+
 def test_an_offset_from_utc_counts_once(tmp_path: Path) -> None:
     rows = ["time,level [m]"] + [f"2024-01-01T09:{i // 60:02d}:{i % 60:02d}+09:00,{LEVEL[i]:.3f}" for i in range(1200)]
     text = "\n".join(rows)

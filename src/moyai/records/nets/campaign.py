@@ -10,7 +10,7 @@ from typing import Literal
 import numpy as np
 
 from moyai.core.errors import InputError
-from moyai.core.options import checks_words
+from moyai.core.options import check_word, checks_words
 from moyai.core.progress import Progress, silent
 from moyai.core.validity import Notice
 from moyai.records.nets.quality import record_notices
@@ -33,7 +33,7 @@ class NetCampaign:
     Raises
     ------
     InputError
-        For names that stand twice or are unknown.
+        For names that stand twice or are unknown, and a vibration that is neither a band nor ``auto`` or ``none``.
     """
 
     title: str
@@ -58,6 +58,8 @@ class NetCampaign:
     seed: int = 1
 
     def __post_init__(self) -> None:
+        if not isinstance(self.vibration, Vibration):
+            check_word(self.vibration, ("auto", "none"), "vibration")
         names = [run.name for run in self.runs] + [cage.name for cage in self.cages]
         for name in names:
             if names.count(name) > 1:

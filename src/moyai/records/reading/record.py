@@ -16,6 +16,7 @@ from numpy.typing import NDArray
 
 from moyai.core.arrays import Array
 from moyai.core.errors import InputError
+from moyai.core.options import checks_words
 from moyai.core.validity import Notice
 
 FlagArray = NDArray[np.uint8]
@@ -38,6 +39,7 @@ FLAG_NAMES = {
 }
 
 
+@checks_words
 @dataclass(frozen=True, eq=False)
 class Record:
     """Channels sampled on one clock."""

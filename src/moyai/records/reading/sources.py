@@ -18,6 +18,13 @@ ENDINGS = {
     ".csv": "csv", ".txt": "csv", ".dat": "csv", ".tsv": "csv", ".asc": "csv", ".raw": "csv", ".wad": "csv",
     ".mat": "mat", ".nc": "netcdf", ".nc4": "netcdf", ".cdf": "netcdf", ".parquet": "parquet", ".pq": "parquet",
 }  # fmt: skip
+#: How instants may be written, in words.
+FORMS = "number, iso, or a pattern such as '%Y/%m/%d %H:%M:%S'"
+
+
+def is_form(text: object) -> bool:
+    """Whether a text says how instants are written."""
+    return text in ("number", "iso") or (isinstance(text, str) and "%" in text)
 
 
 @dataclass(frozen=True)
@@ -86,6 +93,8 @@ class TimeSource:
     order: Literal["strict", "drop"] = "strict"
 
     def __post_init__(self) -> None:
+        if not is_form(self.form):
+            raise InputError(f"'{self.form}' is not a known word", parameter="form", allowed=FORMS)
         if not self.columns and not self.rate > 0.0:
             raise InputError("neither a time column nor a rate", parameter="time", remedy="give 'column' or 'rate'")
 

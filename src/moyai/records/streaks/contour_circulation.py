@@ -100,6 +100,8 @@ def extrapolate_stokes(
 ) -> tuple[float, float]:
     """Fit G + c (B/Bc)^4 to contours of Bc/B >= ``least`` [eq:streaks-extrapolation].
 
+    The power is that of the Stokes drift around a circle [eq:streaks-stokes].
+
     Parameters
     ----------
     size_ratio, circulation : array_like

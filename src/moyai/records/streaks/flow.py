@@ -319,23 +319,3 @@ def _rate(z, t, omega, ax, az, gamma, transport, decay, settling, kind, scale, t
     velocity = (slope / stretch).conjugate()
     velocity += complex(transport * (np.exp(decay * scale * position.imag) - 1.0), -settling)
     return velocity / stretch
-
-
-def stokes_drift_circulation(amplitude: float, period: float, radius_ratio: ArrayLike) -> Array:
-    """Return the circulation of the irrotational Stokes drift around a circle to leading order [eq:streaks-stokes].
-
-    Parameters
-    ----------
-    amplitude : float
-        Velocity amplitude V of the circular orbit [m/s].
-    period : float
-        Wave period T [s].
-    radius_ratio : array_like
-        Radius of the contour over that of the circle.
-
-    Returns
-    -------
-    ndarray
-        2 V^2 T (a/r)^4 [m2/s].
-    """
-    return np.asarray(2.0 * amplitude**2 * period / np.asarray(radius_ratio, dtype=float) ** 4)

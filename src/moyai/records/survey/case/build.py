@@ -16,7 +16,7 @@ from moyai.core.errors import CaseError, Fault, InputError
 from moyai.core.units import parse_unit
 from moyai.records.reading.quality import QualityOptions
 from moyai.records.reading.sensors import QUANTITIES, Sensor
-from moyai.records.reading.sources import ClockCorrection, ColumnSource, LoggerSource, TimeSource
+from moyai.records.reading.sources import FORMS, ClockCorrection, ColumnSource, LoggerSource, TimeSource, is_form
 from moyai.records.survey.case.schema import ChannelEntry, LoggerKeys, QualityKeys, RecordsFile
 from moyai.records.survey.model import (
     UNITS_OF_KINDS,
@@ -226,6 +226,8 @@ class _SurveyBuilder:
         columns: tuple[str | int, ...] = time.columns or ((time.column,) if time.column is not None else ())
         if time.columns is not None and time.format is None:
             self.fault((*path, "time"), "two columns of date and time need 'format'")
+        if time.format is not None and not is_form(time.format):
+            self.fault((*path, "time", "format"), f"'{time.format}' is not a known word", allowed=FORMS)
         start = self._date(time.start, (*path, "time", "start"))
         if time.start is not None and time.utc_offset != 0.0:
             self.fault(

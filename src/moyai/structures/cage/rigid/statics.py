@@ -10,7 +10,7 @@ import numpy as np
 from moyai.core.arrays import Array
 from moyai.core.errors import ConvergenceError, InputError
 from moyai.sea.current import CurrentProfile
-from moyai.sea.water import Water
+from moyai.sea.water import Water, check_water
 from moyai.structures.cage.rigid import load_kernel, march_kernel
 from moyai.structures.cage.rigid.lines import CageLine
 from moyai.structures.cage.rigid.pack import pack
@@ -280,6 +280,7 @@ def free_floating(cage: RigidCage, water: Water, kinematic_viscosity: float) -> 
     >>> round(free_floating(model_cage(), WATER, VISCOSITY).immersion, 3)
     0.806
     """
+    check_water(water)
     require_floating(cage, water)
     packed = pack(cage, (), water, kinematic_viscosity)
     top = float(np.max(cage.floats.points[:, 2])) - cage.centre[1]
@@ -333,6 +334,7 @@ def equilibrium_with_lines(
     >>> (rest.tension / 9.81e-3).round(1).tolist()                   # [gf]
     [53.5, 53.5]
     """
+    check_water(water)
     packed = pack(cage, lines, water, kinematic_viscosity, current=current)
     flowing = bool(np.abs(packed.current[1]).max() > 0.0)
     free = free_floating(cage, water, kinematic_viscosity)

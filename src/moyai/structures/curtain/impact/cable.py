@@ -170,6 +170,8 @@ def sweep_peaks(span: ArrayLike, length: ArrayLike, stiffness: ArrayLike, speed:
 def speed_factor(span_ratio: ArrayLike) -> Array:
     """Return g(R) of the closed form T = g U0 sqrt(m EA), small strain [eq:impact-closed-form].
 
+    It is less than the square root of R, which the energy of the whole span would give [eq:impact-bound].
+
     Raises
     ------
     InputError
@@ -237,23 +239,6 @@ def closed_form(impact: Impact, mass: float | None = None) -> ImpactPeak:
     curvature = impact.span / (2.0 * b)
     frequency = math.sqrt(impact.stiffness * rate / (moved * impact.length * curvature))
     return ImpactPeak(tension, impact.speed / frequency, 0.5 * math.pi / frequency)
-
-
-def energy_bound(impact: Impact, mass: float | None = None) -> float:
-    """Return U0 sqrt(m EA B/l) [N], the tension that the energy of the whole span gives [eq:impact-bound].
-
-    Every metre of the span moves with U0 and all of that energy stretches the cable evenly. Model A, whose span moves
-    like its sag, stays below; a curtain that starts with one speed all along may come near.
-
-    Parameters
-    ----------
-    impact : Impact
-        The span.
-    mass : float, optional
-        Added mass per metre of span [kg/m]; M0 of the paper by default.
-    """
-    moved = moved_mass(impact, mass)
-    return impact.speed * math.sqrt(moved * impact.stiffness * impact.span_ratio)
 
 
 @dataclass(frozen=True, eq=False)
