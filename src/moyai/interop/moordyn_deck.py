@@ -55,13 +55,13 @@ class DeckLineType:
     damping: float
     #: EI [N m2].
     bending_stiffness: float
-    #: Cd, on the diameter [-].
+    #: Cd across the line, on the diameter [-].
     drag_normal: float
-    #: Ca [-].
+    #: Ca across the line [-].
     added_mass_normal: float
-    #: CdAx, on the circumference [-].
+    #: CdAx along the line, on the circumference [-].
     drag_axial: float
-    #: CaAx [-].
+    #: CaAx along the line [-].
     added_mass_axial: float
     #: Line of the file, 0 for a record that was not read.
     line: int = field(default=0, compare=False)

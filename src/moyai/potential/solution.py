@@ -50,7 +50,7 @@ class RadiationDiffraction:
     unknowns: int
     #: Whether the identities were met.
     status: Status
-    #: The same in words.
+    #: That outcome in words.
     message: str
     #: Figures of the identities.
     checks: tuple[IdentityCheck, ...]

@@ -40,9 +40,9 @@ class PowerLawNet(NetLaw):
     basis: ClassVar[str] = "one net"
     skin: ClassVar[str] = "no force at zero solidity; the tangential share along the panel"
 
-    #: A.
+    #: Factor A of C_D = A Re^-B.
     factor: float
-    #: B.
+    #: Exponent B of the same law.
     exponent: float
     #: Lowest Re that A and B were found at: below it the power law is extrapolated up to the cap.
     lowest: float = 0.0

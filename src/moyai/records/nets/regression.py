@@ -29,9 +29,9 @@ class NetPowerLaw:
     """C_D = A Re^-B of one net."""
 
     net: str
-    #: A.
+    #: Factor A of C_D = A Re^-B.
     factor: float
-    #: B.
+    #: Exponent B of the same law.
     exponent: float
     #: Interval of the factor at the confidence asked for.
     factor_interval: tuple[float, float]
