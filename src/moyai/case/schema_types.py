@@ -44,13 +44,13 @@ class QuantityOf:
 
     #: What is expected.
     kind: QuantityKind
-    #: ``above``, ``least``, ``below``, ``most``: Open and closed limits, in the unit of plain numbers.
+    #: Open lower limit, in the unit of plain numbers.
     above: float = -math.inf
-    #: See ``above``.
+    #: Closed lower limit, in the unit of plain numbers.
     least: float = -math.inf
-    #: See ``above``.
+    #: Open upper limit, in the unit of plain numbers.
     below: float = math.inf
-    #: See ``above``.
+    #: Closed upper limit, in the unit of plain numbers.
     most: float = math.inf
     #: Words that stand for a value: ``(("infinite", math.inf),)``, ``(("auto", None),)``.
     words: tuple[tuple[str, float | None], ...] = ()

@@ -56,9 +56,9 @@ class CaseDocument:
     text: str
     #: Its name for messages.
     file: str
-    #: ``keys``, ``values``: Place of the key and of the value of every path, such as ``("lines", 0, "anchor", "x")``.
+    #: Place of the key of every path, such as ``("lines", 0, "anchor", "x")``.
     keys: dict[KeyPath, Place] = field(default_factory=dict)
-    #: See ``keys``.
+    #: Place of the value of every path.
     values: dict[KeyPath, Place] = field(default_factory=dict)
 
     @checks_words

@@ -19,11 +19,11 @@ class Fault:
     allowed: str = ""
     #: How to correct it, for instance ``did you mean 'draught'?``.
     remedy: str = ""
-    #: ``file``, ``line``, ``column``: Place in the file, 1-based; 0 where there is none.
+    #: Name of the file; empty where there is none.
     file: str = ""
-    #: See ``file``.
+    #: Line in the file, 1-based; 0 where there is none.
     line: int = 0
-    #: See ``file``.
+    #: Column in the line, 1-based; 0 where there is none.
     column: int = 0
 
     def __str__(self) -> str:

@@ -44,9 +44,9 @@ NONE = "none"
 class Band:
     """How far a headline moves over what is uncertain or varies by chance."""
 
-    #: ``low``, ``high``: Smallest and largest value, in the unit of the headline.
+    #: Smallest value, in the unit of the headline.
     low: float
-    #: See ``low``.
+    #: Largest value, in the unit of the headline.
     high: float
     #: What is varied and how far, for instance ``viscous damping halved and doubled`` or ``5 seeds``.
     of: str

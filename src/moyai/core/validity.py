@@ -28,9 +28,9 @@ class Notice:
     code: str
     #: One sentence for the engineer, naming the quantity, its number and the limit.
     message: str
-    #: ``value``, ``limit``: The number found and the limit it was compared with (NaN where there is none).
+    #: The number found; NaN where there is none.
     value: float = math.nan
-    #: See ``value``.
+    #: The limit that the number was compared with; NaN where there is none.
     limit: float = math.nan
     #: ``error`` makes the status of the result ``outside_validity``; one of "information", "warning", "error".
     severity: Severity = "warning"

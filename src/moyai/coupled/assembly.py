@@ -34,13 +34,13 @@ class RodPart:
     diameter: float
     #: Of a solid cylinder [kg/m].
     mass_per_length: float
-    #: ``drag_normal``, ``added_mass_normal``: Across it, on diameter and volume [-].
+    #: Drag coefficient across it, on the diameter [-].
     drag_normal: float
-    #: See ``drag_normal``.
+    #: Added-mass coefficient across it, on the volume [-].
     added_mass_normal: float
-    #: ``drag_end``, ``added_mass_end``: Of each end along it, on its face and on half a sphere of water [-].
+    #: Drag coefficient of each end along it, on the face [-].
     drag_end: float
-    #: See ``drag_end``.
+    #: Added-mass coefficient of each end along it, on half a sphere of water [-].
     added_mass_end: float
     #: That the water meets one by one; 24 at least are taken.
     slices: int = SLICES

@@ -75,9 +75,9 @@ class PlanarBody:
     #: Pull of the network at rest that weight and buoyancy balance (F_x, F_z, M_y), copies included [N, N, N m]
     #: [eq:coupled-rest]; shape (3,).
     reaction_at_rest: ArrayLike = (0.0, 0.0, 0.0)
-    #: ``initial_position``, ``initial_velocity``: Motion at the start, relative to rest; shape (3,).
+    #: Displacement at the start in sway, heave [m] and roll [rad], relative to rest; shape (3,).
     initial_position: ArrayLike = (0.0, 0.0, 0.0)
-    #: See ``initial_position``.
+    #: Velocity at the start in the same modes [m/s, m/s, rad/s]; shape (3,).
     initial_velocity: ArrayLike = (0.0, 0.0, 0.0)
     #: States of the memory at the start, one per pole; empty when left out.
     initial_memory: ArrayLike | None = None

@@ -45,9 +45,9 @@ class CoupledHistory:
     bodies: Mapping[str, BodyHistory]
     #: Positions, tensions and peaks.
     network: StepRecord
-    #: ``body_step``, ``network_step``: Largest step of the bodies and smallest of the network [s].
+    #: Largest step of the bodies [s].
     body_step: float
-    #: See ``body_step``.
+    #: Smallest step of the network [s].
     network_step: float
     #: Runs of the network per step of the bodies, on average.
     passes: float

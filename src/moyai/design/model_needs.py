@@ -17,9 +17,9 @@ class Need:
 
     #: Which quantity.
     name: str
-    #: ``wanted``, ``at_hand``: Value by the scale, and value of what is there, in ``unit``.
+    #: Value by the scale, in ``unit``.
     wanted: float
-    #: See ``wanted``.
+    #: Value of what is there, in ``unit``.
     at_hand: float
     #: Unit of the scaled quantity.
     unit: str

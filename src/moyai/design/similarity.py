@@ -76,9 +76,9 @@ class Scale:
 class ScaledQuantity:
     """A quantity in both sizes."""
 
-    #: ``name``, ``unit``: What it is, and its unit.
+    #: What it is.
     name: str
-    #: See ``name``.
+    #: Its unit.
     unit: str
     #: Value of the prototype, in that unit.
     prototype: float
@@ -120,9 +120,9 @@ def cauchy_number(axial_stiffness: float, water: Water) -> float:
 class StretchMatch:
     """How to give a model line the stretch of the prototype."""
 
-    #: ``wanted``, ``available``: EA that the model needs, EA of the line given [N].
+    #: EA that the model needs [N].
     wanted: float
-    #: See ``wanted``.
+    #: EA of the line given [N].
     available: float
     #: Available over wanted [-]: the factor on the Cauchy number's square, on tension about its root.
     distortion: float

@@ -29,13 +29,13 @@ class Front:
 
     #: Its number.
     strand: int
-    #: ``highest``, ``rise``: Highest tension there, and highest rise within the window [N].
+    #: Highest tension there [N].
     highest: float
-    #: See ``highest``.
+    #: Highest rise of tension within the window [N].
     rise: float
-    #: ``within``, ``travel``: The window, and the time of an elastic wave along the strand [s].
+    #: The window [s].
     within: float
-    #: See ``within``.
+    #: Time of an elastic wave along the strand [s].
     travel: float
     #: Highest speed with which a node of the strand came down on the bed [m/s].
     fall: float

@@ -57,9 +57,9 @@ class Motion:
     [0.5, 0.0, 0.0]
     """
 
-    #: ``start``, ``step``: First time and spacing of the grid [s].
+    #: First time of the grid [s].
     start: float
-    #: See ``start``.
+    #: Spacing of the grid [s].
     step: float
     #: Relative to the node's position in the network [m]; shape (k, 3).
     displacement: Array

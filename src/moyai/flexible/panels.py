@@ -39,10 +39,10 @@ class PanelLaw:
 
     #: For results.
     name: str
-    #: ``along``, ``normal``: Coefficients a (along the flow) and b (along the normal) of ``F = (a w + b n (n.w)) |w|
-    #: rho A / 2`` [eq:cage-panel-force]; one row when the law has no Reynolds number; shape (speeds, cosines).
+    #: Coefficient a along the flow of ``F = (a w + b n (n.w)) |w| rho A / 2`` [eq:cage-panel-force]; one row when the
+    #: law has no Reynolds number; shape (speeds, cosines).
     along: Array
-    #: See ``along``.
+    #: Coefficient b along the normal of the same force; shape (speeds, cosines).
     normal: Array
     #: log10 of the first speed.
     first_decade: float = -3.0

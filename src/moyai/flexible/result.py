@@ -72,9 +72,9 @@ class History:
     network: Network
     #: Times of the rows [s]; shape (k,).
     time: Array
-    #: ``nodes``, ``bars``: Which nodes and bars the arrays hold.
+    #: Which nodes the arrays hold.
     nodes: IntArray
-    #: See ``nodes``.
+    #: Which bars the arrays hold.
     bars: IntArray
     #: [m]; shape (k, nodes, 3).
     position: Array
@@ -82,12 +82,11 @@ class History:
     tension: Array
     #: Highest since the row before, taken at every step [N]; shape (k, bars).
     tension_peak: Array
-    #: ``kinetic_energy``, ``elastic_energy``, ``work``: Energy of what is free, energy of bars, hinges and bed, and the
-    #: work done on them since the start by weight, water and driven points [J]; shape (k,).
+    #: Energy of motion of what is free [J]; shape (k,).
     kinetic_energy: Array
-    #: See ``kinetic_energy``.
+    #: Energy of bars, hinges and bed [J]; shape (k,).
     elastic_energy: Array
-    #: See ``kinetic_energy``.
+    #: Work done on the network since the start by weight, water and driven points [J]; shape (k,).
     work: Array
     #: State at the end, from which a run can go on.
     final: State
@@ -97,13 +96,13 @@ class History:
     step: float
     #: Number of steps.
     steps: int
-    #: ``status``, ``message``: ``converged``, ``not_converged`` or ``interrupted``, and why.
+    #: How the run ended: ``converged``, ``not_converged`` or ``interrupted``.
     status: RunStatus = "converged"
-    #: See ``status``.
+    #: Why it ended so.
     message: str = ""
-    #: ``checks``, ``notices``: Identities of the run; where it leaves its range.
+    #: Identities of the run.
     checks: tuple[IdentityCheck, ...] = ()
-    #: See ``checks``.
+    #: Where the run leaves its range.
     notices: tuple[Notice, ...] = field(default=())
     #: Highest rate at which drag damped any part [1/s]; NaN where the method does not watch it.
     drag_rate: float = math.nan

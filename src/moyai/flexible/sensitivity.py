@@ -29,15 +29,14 @@ class PeakSensitivity:
 
     #: Of the run itself [N].
     peak: float
-    #: ``half_step``, ``double_mesh``, ``half_viscosity``, ``double_viscosity``: Highest tension at the same place with
-    #: half the step, with every bar cut in two, and with half and twice the viscosity [N]; of a network without any
-    #: viscosity, twice stands for a twentieth of critical damping on the mesh.
+    #: Highest tension at the same place with half the step [N].
     half_step: float
-    #: See ``half_step``.
+    #: Highest tension at the same place with every bar cut in two [N].
     double_mesh: float
-    #: See ``half_step``.
+    #: Highest tension at the same place with half the viscosity [N].
     half_viscosity: float
-    #: See ``half_step``.
+    #: Highest tension at the same place with twice the viscosity [N]; of a network without any, with a twentieth of
+    #: critical damping on the mesh.
     double_viscosity: float
     #: Time step of the run itself [s].
     step: float

@@ -41,10 +41,9 @@ class Sheets:
     #: Unstretched places of the corners along warp and weft [m]; each triangle may count from its own origin; shape (t,
     #: 3, 2).
     rest: Array
-    #: ``warp_stiffness``, ``weft_stiffness``: Young's modulus times thickness [N/m]; 0 for a sheet without threads that
-    #: way.
+    #: Young's modulus times thickness along the warp [N/m]; 0 for a sheet without threads that way.
     warp_stiffness: Array | float
-    #: See ``warp_stiffness``.
+    #: Young's modulus times thickness along the weft [N/m]; 0 for a sheet without threads that way.
     weft_stiffness: Array | float
     #: Shear modulus times thickness [N/m]; 0 lets the two families of threads work apart.
     shear_stiffness: Array | float = 0.0
@@ -54,9 +53,9 @@ class Sheets:
     mass_per_area: Array | float = 0.0
     #: Displaced volume per area, the thickness [m].
     volume_per_area: Array | float = 0.0
-    #: ``drag_normal``, ``drag_tangential``: Force per area rho/2 C u|u| of the relative velocity across and along [-].
+    #: Coefficient C of the force per area rho/2 C u|u| of the relative velocity across [-].
     drag_normal: Array | float = 0.0
-    #: See ``drag_normal``.
+    #: Coefficient C of the same force of the relative velocity along the sheet [-].
     drag_tangential: Array | float = 0.0
     #: Time by which the rate of strain is multiplied and added to the strain (internal damping) [s].
     damping_time: Array | float = 0.0
@@ -249,9 +248,9 @@ class SheetStress:
     weft: Array
     #: Shear component; shape (t,).
     shear: Array
-    #: ``first``, ``second``: Principal stresses, the higher one first; shape (t,).
+    #: Higher principal stress; shape (t,).
     first: Array
-    #: See ``first``.
+    #: Lower principal stress; shape (t,).
     second: Array
     #: 0 slack, 1 wrinkled, 2 taut; shape (t,).
     state: IntArray

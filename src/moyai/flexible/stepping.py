@@ -63,18 +63,17 @@ class StepRecord:
 
     #: [s]; shape (k,).
     time: Array
-    #: ``nodes``, ``bars``: Which nodes and bars the arrays hold.
+    #: Which nodes the arrays hold.
     nodes: IntArray
-    #: See ``nodes``.
+    #: Which bars the arrays hold.
     bars: IntArray
     #: [m]; shape (k, nodes, 3).
     position: Array
-    #: ``tension``, ``tension_peak``, ``tension_trough``: At the row, and the highest and lowest since the row before
-    #: [N]; the highest counts every small step, the lowest the accepted ones; shape (k, bars).
+    #: Tension at the row [N]; shape (k, bars).
     tension: Array
-    #: See ``tension``.
+    #: Highest since the row before, over every small step [N]; shape (k, bars).
     tension_peak: Array
-    #: See ``tension``.
+    #: Lowest since the row before, over the accepted steps [N]; shape (k, bars).
     tension_trough: Array
     #: Kinetic energy, as in :class:`moyai.flexible.result.History` [J]; shape (k,).
     kinetic_energy: Array

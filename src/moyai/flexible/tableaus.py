@@ -16,9 +16,9 @@ class Tableau:
 
     #: As the user calls it.
     name: str
-    #: ``order``, ``embedded_order``: Of the step and of the solution that estimates its error.
+    #: Order of the step.
     order: int
-    #: See ``order``.
+    #: Order of the solution that estimates its error.
     embedded_order: int
     #: Lower triangular; the last row is the step; shape (s, s).
     stages: Array

@@ -63,10 +63,9 @@ class Hydrodynamics:
     modes: tuple[str, ...]
     #: Shape (m, m).
     infinite_frequency_added_mass: Array | None = None
-    #: ``reflection_coefficient``, ``transmission_coefficient``: Complex, of the body held fixed; ``None`` for
-    #: a body of finite length; shape (n, h).
+    #: Complex, of the body held fixed; ``None`` for a body of finite length; shape (n, h).
     reflection_coefficient: ComplexArray | None = None
-    #: See ``reflection_coefficient``.
+    #: Complex, of the body held fixed; ``None`` for a body of finite length; shape (n, h).
     transmission_coefficient: ComplexArray | None = None
     #: Complex wave amplitude per unit velocity towards -x and +x [s]; shape (n, m, 2).
     radiated_wave: ComplexArray | None = None

@@ -58,9 +58,9 @@ class Hydrostatics:
     #: Restoring of buoyancy and weight about ``centre`` in sway, heave, roll [N/m, N, N m] [eq:floating-hydrostatic];
     #: shape (3, 3).
     stiffness: Array
-    #: ``displaced_mass``, ``mass``: rho A l and body mass [kg].
+    #: Mass of the displaced water, rho A l [kg].
     displaced_mass: float
-    #: See ``displaced_mass``.
+    #: Mass of the body [kg].
     mass: float
     #: Centre of gravity (x, z) of the site frame [m].
     centre: tuple[float, float]

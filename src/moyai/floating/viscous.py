@@ -79,9 +79,9 @@ class Measure:
 
     #: Shape (p,).
     weights: Array
-    #: ``points``, ``directions``: (x, z) [m]; unit vectors; shape (p, 2).
+    #: (x, z) [m]; shape (p, 2).
     points: Array
-    #: See ``points``.
+    #: Unit vectors; shape (p, 2).
     directions: Array
     #: c / (rho l) of the force c |J v| J v.
     coefficient: float

@@ -60,13 +60,13 @@ class DeckRodType:
     diameter: float
     #: [kg/m].
     mass_per_length: float
-    #: ``drag_normal``, ``added_mass_normal``: Across the rod, on diameter and volume [-].
+    #: Drag coefficient across the rod, on the diameter [-].
     drag_normal: float
-    #: See ``drag_normal``.
+    #: Added-mass coefficient across the rod, on the volume [-].
     added_mass_normal: float
-    #: ``drag_end``, ``added_mass_end``: Of each end along the rod, on its face and on half a sphere [-].
+    #: Drag coefficient of each end along the rod, on the face [-].
     drag_end: float
-    #: See ``drag_end``.
+    #: Added-mass coefficient of each end along the rod, on half a sphere [-].
     added_mass_end: float
     #: Line of the file.
     line: int = field(default=0, compare=False)
@@ -109,9 +109,9 @@ class DeckRod:
     rod_type: str
     #: ``fixed``, ``coupled``, ``free``, ``pinned``, ``coupled pinned`` (at end A), ``body`` (part of one).
     kind: RodKind
-    #: ``start``, ``end``: Ends A and B [m]; in body axes for part of a body.
+    #: End A [m]; in body axes for part of a body.
     start: Triple
-    #: See ``start``.
+    #: End B [m]; in body axes for part of a body.
     end: Triple
     #: 0 for a rod of no length, which joins lines.
     segments: int

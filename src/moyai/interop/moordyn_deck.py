@@ -55,14 +55,13 @@ class DeckLineType:
     damping: float
     #: EI [N m2].
     bending_stiffness: float
-    #: ``drag_normal``, ``added_mass_normal``, ``drag_axial``, ``added_mass_axial``: Cd on the diameter, Ca, CdAx on the
-    #: circumference, CaAx [-].
+    #: Cd across the line, on the diameter [-].
     drag_normal: float
-    #: See ``drag_normal``.
+    #: Ca across the line [-].
     added_mass_normal: float
-    #: See ``drag_normal``.
+    #: CdAx along the line, on the circumference [-].
     drag_axial: float
-    #: See ``drag_normal``.
+    #: CaAx along the line [-].
     added_mass_axial: float
     #: Line of the file, 0 for a record that was not read.
     line: int = field(default=0, compare=False)
@@ -108,9 +107,9 @@ class DeckLine:
     number: int
     #: Name of a line type.
     line_type: str
-    #: ``start``, ``end``: IDs of the points at its ends A and B, or ends of rods such as ``R1A``.
+    #: ID of the point at its end A, or an end of a rod such as ``R1A``.
     start: int | str
-    #: See ``start``.
+    #: ID of the point at its end B, or an end of a rod.
     end: int | str
     #: Unstretched [m].
     length: float
@@ -140,11 +139,11 @@ class MoorDynDeck:
     current: DeckCurrent | None = None
     #: Of the option SeafloorFile.
     seafloor: DeckSeafloor | None = None
-    #: ``rod_types``, ``bodies``, ``rods``: Rows of ROD TYPES, BODIES and RODS.
+    #: Rows of ROD TYPES.
     rod_types: tuple[DeckRodType, ...] = ()
-    #: See ``rod_types``.
+    #: Rows of BODIES.
     bodies: tuple[DeckBody, ...] = ()
-    #: See ``rod_types``.
+    #: Rows of RODS.
     rods: tuple[DeckRod, ...] = ()
     #: Line that describes the deck.
     title: str = field(default="", compare=False)

@@ -44,9 +44,9 @@ class DeckSyrope:
 
     #: LINEAR, QUADRATIC or EXP.
     form: Literal["LINEAR", "QUADRATIC", "EXP"]
-    #: ``k1``, ``k2``: parameters of the shape.
+    #: First parameter of the shape.
     k1: float
-    #: See ``k1``.
+    #: Second parameter of the shape.
     k2: float
     #: Quick stiffness without tension [N], and per tension [-].
     alpha: float
@@ -68,9 +68,9 @@ class DeckSeafloor:
 
     #: x, y, z above still water [m], one a crossing of the grid lines.
     rows: tuple[tuple[float, float, float], ...]
-    #: ``file``, ``folder``: where the file stands.
+    #: Name of the file.
     file: str = field(default="", compare=False)
-    #: See ``file``.
+    #: Folder that the file stands in.
     folder: str = field(default="", compare=False)
 
     @property

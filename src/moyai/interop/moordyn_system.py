@@ -95,9 +95,9 @@ class BodyOfDeck:
     rotation: Array
     #: Without parts [kg].
     mass: float
-    #: ``centre``, ``inertia``: Centre of that mass, and its moments of inertia about it [m, kg m2].
+    #: Centre of that mass, in its axes [m].
     centre: Triple
-    #: See ``centre``.
+    #: Moments of inertia about that centre [kg m2].
     inertia: Triple
     parts: tuple[RodPart | VolumePart, ...]
     #: Points that lines meet, in its axes [m]; shape (3,).

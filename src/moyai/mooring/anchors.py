@@ -65,9 +65,9 @@ class DragAnchor:
 class AnchorCheck:
     """Outcome of an anchor."""
 
-    #: ``sliding``, ``lifting``: Utilisation against each; above 1 fails.
+    #: Utilisation against sliding [-]; above 1 fails.
     sliding: float
-    #: See ``sliding``.
+    #: Utilisation against lifting [-]; above 1 fails.
     lifting: float
     notices: tuple[Notice, ...] = ()
 

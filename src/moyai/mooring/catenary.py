@@ -26,10 +26,9 @@ class CatenarySolution:
 
     #: Horizontal tension at the fairlead [N]; constant along the part that is clear of the bed.
     horizontal_tension: Array
-    #: ``vertical_tension_fairlead``, ``vertical_tension_anchor``: Vertical tension [N], positive where the line rises
-    #: towards the fairlead.
+    #: Vertical tension at the fairlead [N], positive where the line rises towards the fairlead.
     vertical_tension_fairlead: Array
-    #: See ``vertical_tension_fairlead``.
+    #: Vertical tension at the anchor [N], positive where the line rises towards the fairlead.
     vertical_tension_anchor: Array
     #: Horizontal tension at the anchor [N], lowered by bed friction.
     horizontal_tension_anchor: Array

@@ -22,10 +22,9 @@ class LineShape:
     arc_length: Array
     #: [N]; shape (n,).
     tension: Array
-    #: ``horizontal``, ``height``: Distance from the anchor and height above it in the line's own vertical plane [m];
-    #: shape (n,).
+    #: Distance from the anchor in the line's own vertical plane [m]; shape (n,).
     horizontal: Array
-    #: See ``horizontal``.
+    #: Height above the anchor [m]; shape (n,).
     height: Array
 
 

@@ -17,9 +17,9 @@ from moyai.core.errors import InputError
 class ShojiSolution:
     """A line with part of it on the bed."""
 
-    #: ``horizontal_tension``, ``vertical_tension``: T_H and T_V = w s at the fairlead [N].
+    #: T_H at the fairlead [N].
     horizontal_tension: float
-    #: See ``horizontal_tension``.
+    #: T_V = w s at the fairlead [N].
     vertical_tension: float
     #: Unstretched length s clear of the bed [m].
     suspended_length: float

@@ -35,9 +35,9 @@ class TabulatedForce:
     line: Line
     #: [m].
     water_depth: float
-    #: ``horizontal_range``, ``vertical_range``: Window of X and Z [m] in which the table was asked for.
+    #: Window of X in which the table was asked for [m].
     horizontal_range: tuple[float, float]
-    #: See ``horizontal_range``.
+    #: Window of Z in which the table was asked for [m].
     vertical_range: tuple[float, float]
     #: Relative accuracy asked for: |error of (H, V)| over the tension.
     tolerance: float

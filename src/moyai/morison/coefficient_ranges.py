@@ -22,9 +22,9 @@ class MeasuredRange:
     keulegan_carpenter: tuple[float, float]
     #: Range of the Reynolds number of its source [-].
     reynolds: tuple[float, float]
-    #: ``below``, ``above``: Allowance under and over the coefficient, as a part of it [-].
+    #: Allowance under the coefficient, as a part of it [-].
     below: float
-    #: See ``below``.
+    #: Allowance over the coefficient, as a part of it [-].
     above: float
     source: str
     #: What moved its allowance, in words.

@@ -31,9 +31,9 @@ class StraightMember:
     (5.0, -4.15)
     """
 
-    #: ``start``, ``end``: Ends (x, y, z) [m], z above the reference level of the caller.
+    #: One end (x, y, z) [m], z above the reference level of the caller.
     start: tuple[float, float, float]
-    #: See ``start``.
+    #: The other end (x, y, z) [m], z above the same level.
     end: tuple[float, float, float]
     #: In axes of the section; see :attr:`axes`.
     section: MemberSection

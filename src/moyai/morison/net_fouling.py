@@ -20,9 +20,9 @@ _CLOSED = 0.9
 class FouledNet:
     """A net under growth."""
 
-    #: ``clean``, ``net``: Without and with the growth.
+    #: The net without the growth.
     clean: Net
-    #: See ``clean``.
+    #: The net with the growth.
     net: Net
     #: Of the growth [kg/m3].
     density: float

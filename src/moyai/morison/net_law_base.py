@@ -31,10 +31,9 @@ class NetLaw(ABC):
     kind: ClassVar[str]
     #: Who found it, where.
     source: ClassVar[str]
-    #: ``reynolds_range``, ``solidity_range``: Range that the source covers; outside it the law is continued as
-    #: ``outside`` says, with a notice.
+    #: Reynolds numbers that the source covers; outside them the law is continued as ``outside`` says, with a notice.
     reynolds_range: ClassVar[tuple[float, float]]
-    #: See ``reynolds_range``.
+    #: Solidities that the source covers; outside them the law is continued with a notice.
     solidity_range: ClassVar[tuple[float, float]]
     #: Definition of the Reynolds number of the range.
     reynolds_name: ClassVar[str] = "Re = U d / nu"

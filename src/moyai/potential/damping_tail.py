@@ -33,9 +33,9 @@ class Tail:
     kind: TailKind
     #: Last frequency given [rad/s].
     start: float
-    #: ``exponents``, ``coefficients``: Terms; coefficients are those at ``start``.
+    #: Exponents of the terms.
     exponents: tuple[float, ...]
-    #: See ``exponents``.
+    #: Coefficients of the terms: their values at ``start``.
     coefficients: tuple[float, ...]
     #: Why this kind was taken.
     reason: str

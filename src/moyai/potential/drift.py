@@ -41,10 +41,9 @@ class FarFieldDrift:
 class NearFieldDrift:
     """Mean force from the pressure on the section, per unit amplitude squared."""
 
-    #: ``horizontal``, ``vertical``: Along x and z [N/m per m2]. The vertical one counts the mean pressure from zero
-    #: Bernoulli constant. Shape (omega,).
+    #: Force along x [N/m per m2]; shape (omega,).
     horizontal: Array
-    #: See ``horizontal``.
+    #: Force along z [N/m per m2]; counts the mean pressure from zero Bernoulli constant; shape (omega,).
     vertical: Array
     #: About the centre of roll, positive as roll [N m/m per m2]; shape (omega,).
     moment: Array

@@ -58,9 +58,9 @@ class HeadingSolution:
     heading: float
     #: The frequencies.
     states: WaveStates
-    #: ``body``, ``surface``: Nodes of the whole wetted boundary and free surface, on which the potentials are given.
+    #: Nodes of the whole wetted boundary, on which potentials are given.
     body: Panels
-    #: See ``body``.
+    #: Nodes of the free surface, on which potentials are given.
     surface: Panels
     #: [kg/m] for translations. Damping is that of the waves sent out (and of the lid), which is exact to a share of
     #: itself however small it is. Shape (omega, radiating, influenced).
@@ -85,10 +85,9 @@ class HeadingSolution:
     lid_loss: Array
     #: Part of the radiation damping that the lid takes; shape (omega, mode, mode).
     lid_damping: Array
-    #: ``radiation``, ``radiation_surface``: Potentials on the nodes of body and free surface [m2/s per m/s]; shape
-    #: (omega, n, mode).
+    #: Potential on the nodes of the body [m2/s per m/s]; shape (omega, n, mode).
     radiation: ComplexArray
-    #: See ``radiation``.
+    #: Potential on the nodes of the free surface [m2/s per m/s]; shape (omega, n, mode).
     radiation_surface: ComplexArray
     #: The same of the scattered wave [m2/s per m]; shape (omega, n).
     scattered: ComplexArray

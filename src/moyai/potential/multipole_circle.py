@@ -32,10 +32,9 @@ _EXPONENT = 3.0
 class CircleCoefficients:
     """Radiation of a circular cylinder, without dimension."""
 
-    #: ``added_mass``, ``radiation_damping``: a/(rho area) and b/(rho area omega) with the area of the immersed section
-    #: (half or whole circle).
+    #: a/(rho area) with the area of the immersed section (half or whole circle).
     added_mass: float
-    #: See ``added_mass``.
+    #: b/(rho area omega) with the same area.
     radiation_damping: float
     #: Amplitude of the radiated wave on one side over the amplitude of the motion.
     wave_ratio: float
@@ -147,9 +146,9 @@ def _pole_integral(zeta: ComplexArray, ka: float) -> tuple[ComplexArray, Complex
 class SubmergedCircle:
     """Submerged circular cylinder in infinite depth, without dimension; sway and heave are equal."""
 
-    #: ``added_mass``, ``radiation_damping``: a/(rho pi a^2) and b/(rho pi a^2 omega).
+    #: a/(rho pi a^2).
     added_mass: float
-    #: See ``added_mass``.
+    #: b/(rho pi a^2 omega).
     radiation_damping: float
     #: Amplitude of the radiated wave on one side over the amplitude of the motion.
     wave_ratio: float

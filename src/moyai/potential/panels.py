@@ -34,9 +34,9 @@ class Rule:
     projection: Array
     #: d/dt at the nodes from node values; shape (p, p).
     derivative: Array
-    #: ``first``, ``last``: Values at t = -1 and t = 1 from node values; shape (p,).
+    #: Value at t = -1 from node values; shape (p,).
     first: Array
-    #: See ``first``.
+    #: Value at t = 1 from node values; shape (p,).
     last: Array
 
 
@@ -72,9 +72,9 @@ class Panels:
     pieces: tuple[Piece, ...]
     #: Nodes per panel.
     order: int
-    #: ``u``, ``v``: x + i z and x - i z; conjugate where x is real; shape (nodes,).
+    #: x + i z; shape (nodes,).
     u: ComplexArray
-    #: See ``u``.
+    #: x - i z, the conjugate of u where x is real; shape (nodes,).
     v: ComplexArray
     #: Derivative of u with respect to the parameter t of the panel.
     du: ComplexArray

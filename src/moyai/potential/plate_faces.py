@@ -21,9 +21,9 @@ from moyai.potential.quadrature import add_rankine
 class PlateTip:
     """A free edge of a plate."""
 
-    #: ``place``, ``outward``: Where it is [m], and the unit vector along which the plate would go on; shape (2,).
+    #: Where it is [m]; shape (2,).
     place: Array
-    #: See ``place``.
+    #: Unit vector along which the plate would go on; shape (2,).
     outward: Array
     #: Weights that give C of the jump C sqrt(distance) from the values on all nodes of the body [1 / sqrt(m)]; shape
     #: (n,).

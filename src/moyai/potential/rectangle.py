@@ -42,9 +42,9 @@ _ALMOST_ZERO = 1e-4  # kh at which the zero-frequency limit is taken; its error 
 class RectangleSolution:
     """Coefficients of a rectangle per metre, convention ``exp(-i omega t)``, phases at x = 0."""
 
-    #: ``beam``, ``draught``: B and d [m].
+    #: Beam B [m].
     beam: float
-    #: See ``beam``.
+    #: Draught d [m].
     draught: float
     #: x, z [m] of the point that roll turns about.
     centre: tuple[float, float]

@@ -128,9 +128,9 @@ class Fields:
     incident_moment: ComplexArray
     #: Amplitude of the wave mode at x > 0, phase referred to x = 0; shape (3,).
     radiated: ComplexArray
-    #: ``reflection_coefficient``, ``transmission_coefficient``: Of the body held fixed, phase referred to x = 0.
+    #: Of the body held fixed, phase referred to x = 0.
     reflection_coefficient: complex
-    #: See ``reflection_coefficient``.
+    #: Of the body held fixed, phase referred to x = 0.
     transmission_coefficient: complex
     #: Value of the wave mode at the surface.
     surface: float

@@ -42,20 +42,19 @@ class RadiationDiffraction:
     normal: HeadingSolution
     #: One for every other |heading|; its modes vary as exp(i k sin(beta) y).
     oblique: tuple[HeadingSolution, ...]
-    #: ``infinite_frequency_added_mass``, ``zero_frequency_added_mass``: Limits; NaN where there is none (zero frequency
-    #: in infinite depth, modes that displace volume); shape (radiating, influenced).
+    #: Limit of infinite frequency; shape (radiating, influenced).
     infinite_frequency_added_mass: Array
-    #: See ``infinite_frequency_added_mass``.
+    #: Limit of zero frequency; NaN in infinite depth for modes that displace volume; shape (radiating, influenced).
     zero_frequency_added_mass: Array
     #: Number of nodes.
     unknowns: int
-    #: ``status``, ``message``, ``checks``, ``notices``: Whether the identities were met, and their figures.
+    #: Whether the identities were met.
     status: Status
-    #: See ``status``.
+    #: That outcome in words.
     message: str
-    #: See ``status``.
+    #: Figures of the identities.
     checks: tuple[IdentityCheck, ...]
-    #: See ``status``.
+    #: What makes the numbers doubtful.
     notices: tuple[Notice, ...] = ()
 
     @property

@@ -52,10 +52,9 @@ class Plate:
     (2.0, True)
     """
 
-    #: ``start``, ``end``: x, z [m]; the start may lie on the still water z = 0, the end may stand on the bed. Both may
-    #: be submerged.
+    #: x, z of its start [m]; may lie on the still water z = 0 or be submerged.
     start: tuple[float, float]
-    #: See ``start``.
+    #: x, z of its end [m]; may stand on the bed or be submerged.
     end: tuple[float, float]
     #: tan(sweep / 4): 0 straight, positive turns counter-clockwise (a hanging plate bulges towards -x), 1 half circle.
     bulge: float = 0.0

@@ -27,9 +27,9 @@ class PlateGrid:
     weight: Array
     #: Arc-length fractions at which the equation holds; shape (last - first + 1,).
     target: Array
-    #: ``first``, ``last``: Range of the nodes that carry unknowns; those before and behind follow from them.
+    #: First node that carries an unknown; those before follow from them.
     first: int
-    #: See ``first``.
+    #: Last node that carries an unknown; those behind follow from them.
     last: int
 
 

@@ -57,9 +57,9 @@ def plate_section(*plates: Plate | PlateLine, name: str = "plates") -> Section:
 class PlateJump:
     """Jump of the potential over one plate: its value where the normal points minus that behind."""
 
-    #: ``points``, ``normals``: Places [m] and unit normals; shape (n, 2).
+    #: Places [m]; shape (n, 2).
     points: Array
-    #: See ``points``.
+    #: Unit normals; shape (n, 2).
     normals: Array
     #: Distance along the plate [m]; shape (n,).
     arc: Array

@@ -66,9 +66,9 @@ class LeftOut:
     group: str
     #: Parameters found without the group.
     values: Array
-    #: ``bias``, ``rms``: Of prediction minus observation in the group, in the unit of the observations.
+    #: Mean of prediction minus observation in the group, in the unit of the observations.
     bias: float
-    #: See ``bias``.
+    #: Root mean square of prediction minus observation in the group, in the unit of the observations.
     rms: float
     count: int
 
@@ -78,14 +78,14 @@ class Calibration:
     """Parameters of a model found from observations; equation [eq:records-calibration]."""
 
     parameters: tuple[Parameter, ...]
-    #: ``values``, ``errors``: Estimates and standard errors.
+    #: Estimates; shape (parameters,).
     values: Array
-    #: See ``values``.
+    #: Standard errors of the estimates; shape (parameters,).
     errors: Array
     covariance: Array
-    #: ``prediction``, ``residual``: At the estimate; residual is prediction minus observation.
+    #: Of the model at the estimate.
     prediction: Array
-    #: See ``prediction``.
+    #: Prediction minus observation at the estimate.
     residual: Array
     #: Mean of the residual.
     bias: float
@@ -454,9 +454,9 @@ class ProfileOfFit:
     """Least sum of squares over the other parameters, along one."""
 
     name: str
-    #: ``values``, ``squares``: Values of the parameter and the sum of weighted squares.
+    #: Values of the parameter.
     values: Array
-    #: See ``values``.
+    #: Sum of weighted squares at each of them.
     squares: Array
     #: Where the sum rises by no more than 3.84 standard variances: 95 % interval; infinite on an open side.
     interval: tuple[float, float]

@@ -26,9 +26,9 @@ class Abscissa:
 
     #: Short name by which the series give their values.
     key: str
-    #: ``label``, ``unit``: Words and unit of the axis, in display units.
+    #: Words of the axis.
     label: str
-    #: See ``label``.
+    #: Unit of the axis, in display units.
     unit: str = ""
     #: Logarithmic scale.
     log: bool = False
@@ -38,9 +38,9 @@ class Abscissa:
 class Panel:
     """One of the diagrams stacked in a figure over a common abscissa."""
 
-    #: ``label``, ``unit``: Words and unit of the ordinate, in display units.
+    #: Words of the ordinate.
     label: str
-    #: See ``label``.
+    #: Unit of the ordinate, in display units.
     unit: str = ""
     #: Range of the axis; found from the data when absent.
     limits: tuple[float, float] | None = None
@@ -389,9 +389,9 @@ class Document:
 
     title: str
     subtitle: str
-    #: ``status``, ``message``: Status of the result and the sentence behind it.
+    #: Status of the result.
     status: str
-    #: See ``status``.
+    #: Sentence behind the status.
     message: str
     sections: tuple[Chapter, ...]
     #: For the foot of the page.

@@ -29,13 +29,13 @@ class Pair:
 
     #: Title of the figure.
     figure: str
-    #: ``label``, ``unit``: Series with its panel, and unit of the values.
+    #: Series with its panel.
     label: str
-    #: See ``label``.
+    #: Unit of the values.
     unit: str
-    #: ``x``, ``here``: Abscissa and values of this report.
+    #: Abscissa of this report.
     x: Array
-    #: See ``x``.
+    #: Values of this report.
     here: Array
     #: Abscissa of the other result.
     x_there: Array

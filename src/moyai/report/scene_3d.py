@@ -145,13 +145,13 @@ class Scene3D:
     tension: Array
     #: Bars drawn thin (twines of a net, edges of a sheet); shape (m,).
     thin: NDArray[np.bool_] | None = None
-    #: ``faces``, ``markers``, ``bodies``, ``traces``: What else there is; of the traces the highest are kept.
+    #: Faces besides the bars.
     faces: tuple[Faces, ...] = ()
-    #: See ``faces``.
+    #: Markers besides the bars.
     markers: tuple[Marker, ...] = ()
-    #: See ``faces``.
+    #: Bodies besides the bars.
     bodies: tuple[Body3D, ...] = ()
-    #: See ``faces``.
+    #: Tensions of lines over time, under the picture; the highest are kept.
     traces: tuple[Trace, ...] = ()
     #: Moving surface; still water when left out.
     waves: Waves3D | Surface3D | None = None

@@ -74,9 +74,9 @@ class PaperFigure:
 class FilledInput:
     """An input that the paper leaves out, and how far the answer moves with it."""
 
-    #: ``name``, ``value``: What it is and what was taken.
+    #: What it is.
     name: str
-    #: See ``name``.
+    #: What was taken.
     value: str
     #: Other values that were tried.
     varied: str
@@ -102,9 +102,9 @@ class Paper:
     plotted: tuple[str, ...]
     #: ``run(quick, progress)`` computes everything and returns the runs.
     run: Callable[[bool, Progress], Any]
-    #: ``figures``, ``filled``: Take the runs; return the figures and the inputs that were filled in.
+    #: Takes the runs, returns the figures.
     figures: Callable[[Any], tuple[PaperFigure, ...]]
-    #: See ``figures``.
+    #: Takes the runs, returns the inputs that were filled in.
     filled: Callable[[Any], tuple[FilledInput, ...]]
 
 

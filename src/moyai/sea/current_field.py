@@ -24,11 +24,11 @@ class CurrentField:
 
     #: [s]; shape (t,).
     time: Array
-    #: ``x``, ``y``, ``z``: Places [m], z from still water upwards; shape (a,), (b,), (c,).
+    #: Places along x [m]; shape (a,).
     x: Array
-    #: See ``x``.
+    #: Places along y [m]; shape (b,).
     y: Array
-    #: See ``x``.
+    #: Places from still water upwards [m]; shape (c,).
     z: Array
     #: [m/s]; shape (t, a, b, c, 3).
     velocity: Array

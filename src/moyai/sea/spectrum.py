@@ -34,13 +34,13 @@ class WindSeaShape:
     peak_omega: float
     #: gamma [-]; 1 gives Pierson-Moskowitz.
     peak_enhancement: float = 1.0
-    #: ``sigma_low``, ``sigma_high``: Width of the peak below and above omega_p [-].
+    #: Width of the peak below omega_p [-].
     sigma_low: float = 0.07
-    #: See ``sigma_low``.
+    #: Width of the peak above omega_p [-].
     sigma_high: float = 0.09
-    #: ``depth``, ``gravity``: Water of the TMA depth function; infinite depth where it is not applied.
+    #: Depth of the TMA depth function [m]; infinite where it is not applied.
     depth: float = math.inf
-    #: See ``depth``.
+    #: Gravity of the TMA depth function [m/s2].
     gravity: float = math.nan
 
     def __call__(self, omega: Array) -> Array:
@@ -124,9 +124,9 @@ class Spectrum:
     parameters: Mapping[str, Any] = field(default_factory=dict)
     #: Closed shapes whose sum is the spectrum; empty for a table, which is linear between its points and zero outside.
     shapes: tuple[WindSeaShape, ...] = ()
-    #: ``lower``, ``upper``: Band limits [rad/s]: the spectrum is zero outside.
+    #: Lower band limit [rad/s]: the spectrum is zero below.
     lower: float = 0.0
-    #: See ``lower``.
+    #: Upper band limit [rad/s]: the spectrum is zero above.
     upper: float = math.inf
 
     def __post_init__(self) -> None:

@@ -57,9 +57,9 @@ class StreamFunctionSolution:
     coefficients: Array
     #: c (k/g)^1/2 relative to the current.
     celerity: float
-    #: ``stream``, ``head``: Constants of the kinematic and the dynamic condition.
+    #: Constant of the kinematic condition.
     stream: float
-    #: See ``stream``.
+    #: Constant of the dynamic condition.
     head: float
     #: k [1/m].
     wave_number: float

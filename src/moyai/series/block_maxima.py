@@ -22,9 +22,9 @@ class Maximum:
 
     #: Largest value of the present record.
     observed: float
-    #: ``mean``, ``deviation``: Over all records of that length, estimated from the maxima of blocks.
+    #: Mean over all records of that length, estimated from the maxima of blocks.
     mean: float
-    #: See ``mean``.
+    #: Standard deviation over the same records, from the same maxima.
     deviation: float
     blocks: int
 

@@ -31,9 +31,9 @@ class Harmonics:
     residual: Array
     #: Number of whole periods that were used.
     periods: int
-    #: ``start``, ``end``: First instant used and the instant one step after the last [s].
+    #: First instant used [s].
     start: float
-    #: See ``start``.
+    #: Instant one step after the last one used [s].
     end: float
 
     @property

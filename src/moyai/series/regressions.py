@@ -23,13 +23,13 @@ from moyai.series.intervals import student_quantile
 class Estimate:
     """A fitted number."""
 
-    #: ``value``, ``error``, ``low``, ``high``: Estimate, standard error, bounds.
+    #: Estimate.
     value: float
-    #: See ``value``.
+    #: Standard error.
     error: float
-    #: See ``value``.
+    #: Lower bound.
     low: float
-    #: See ``value``.
+    #: Upper bound.
     high: float
 
     def holds(self, value: float) -> bool:

@@ -31,17 +31,17 @@ class CableSnap:
 
     #: Of the cable.
     name: str
-    #: ``peak``, ``peak_time``: Largest tension above the unloaded level [N] and when [s].
+    #: Largest tension above the unloaded level [N].
     peak: float
-    #: See ``peak``.
+    #: When the tension is largest [s].
     peak_time: float
     #: Steady level after the spike [N].
     plateau: float
     #: Standard error of the plateau [N], from the scatter of blocks.
     plateau_error: float
-    #: ``offset``, ``drift``: What was taken off: level [N] at the first sample and its slope [N/s].
+    #: Level that was taken off, at the first sample [N].
     offset: float
-    #: See ``offset``.
+    #: Slope that was taken off [N/s].
     drift: float
     #: Standard deviation of the noise [N].
     noise: float
@@ -58,12 +58,11 @@ class MeasuredSnap:
 
     #: When the tension begins to rise [s]; NaN where noise hides it.
     release_time: float
-    #: ``taut_time``, ``peak_time``, ``plateau_start``: [s]; the plateau starts where the summed tension stays within a
-    #: tenth of the impact of it.
+    #: When the cables become taut [s].
     taut_time: float
-    #: See ``taut_time``.
+    #: When the tension is largest [s].
     peak_time: float
-    #: See ``taut_time``.
+    #: From when on the summed tension stays within a tenth of the impact of the plateau [s].
     plateau_start: float
     #: Of the sum of all cables.
     sum: CableSnap
@@ -71,9 +70,9 @@ class MeasuredSnap:
     cables: tuple[CableSnap, ...]
     #: [s].
     sampling_step: float
-    #: ``time``, ``tension``: The record without offset and drift: (n,), (cables, n).
+    #: Instants of the record [s]; shape (n,).
     time: Array
-    #: See ``time``.
+    #: Tensions without offset and drift [N]; shape (cables, n).
     tension: Array
     #: What makes the numbers doubtful.
     notices: tuple[Notice, ...]

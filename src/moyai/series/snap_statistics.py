@@ -40,9 +40,9 @@ class SnapFit:
     law: SnapLaw
     #: [N].
     threshold: float
-    #: ``shape``, ``scale``: c [-] and a [N].
+    #: Shape c of the law [-].
     shape: Interval
-    #: See ``shape``.
+    #: Scale a of the law [N].
     scale: Interval
     #: Peaks above the threshold per hour; exact bounds of Poisson's law.
     rate: Interval

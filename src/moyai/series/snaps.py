@@ -34,10 +34,9 @@ class Contact:
 class SnapRecord:
     """Snap loads of one record."""
 
-    #: ``slack_level``, ``threshold``: Tension below which a line counts as slack, and peak above which a contact counts
-    #: as a snap [N].
+    #: Tension below which a line counts as slack [N].
     slack_level: float
-    #: See ``slack_level``.
+    #: Peak above which a contact counts as a snap [N].
     threshold: float
     #: Begin and end of every slack interval [s]; shape (k, 2).
     slack: Array

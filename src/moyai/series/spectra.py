@@ -68,9 +68,9 @@ class CrossSpectra:
     matrix: ComplexArray
     #: Equivalent degrees of freedom of each estimate; equation [eq:records-freedom].
     degrees_of_freedom: float
-    #: ``segments``, ``left_out``: Segments used, and those left out because a sample was missing.
+    #: Segments used.
     segments: int
-    #: See ``segments``.
+    #: Segments left out because a sample was missing.
     left_out: int
     #: Width of the frequency band that one estimate stands for [Hz].
     resolution: float
@@ -109,9 +109,9 @@ class MeasuredSpectrum:
     density: Array
     #: Equivalent degrees of freedom of each estimate.
     degrees_of_freedom: float
-    #: ``segments``, ``left_out``: Segments used and left out.
+    #: Segments used.
     segments: int = 1
-    #: See ``segments``.
+    #: Segments left out.
     left_out: int = 0
     #: [Hz].
     resolution: float = math.nan

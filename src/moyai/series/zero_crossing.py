@@ -64,16 +64,15 @@ class WaveOptions:
 class Waves:
     """Waves of a record."""
 
-    #: ``start``, ``period``: Opening crossing and duration [s].
+    #: Opening crossing [s].
     start: Array
-    #: See ``start``.
+    #: Duration [s].
     period: Array
-    #: ``height``, ``crest``, ``trough``: Height, highest and lowest value about the level (trough negative) [unit of
-    #: the record].
+    #: Height [unit of the record].
     height: Array
-    #: See ``height``.
+    #: Highest value about the level [unit of the record].
     crest: Array
-    #: See ``height``.
+    #: Lowest value about the level, negative [unit of the record].
     trough: Array
     options: WaveOptions
     notices: tuple[Notice, ...] = ()

@@ -88,9 +88,9 @@ class Combination:
     index: int
     #: Its place on every axis.
     labels: tuple[str, ...]
-    #: ``assignments``, ``removals``: What it changes in the base case, in the order of the axes.
+    #: What it sets in the base case, in the order of the axes.
     assignments: Assignments = ()
-    #: See ``assignments``.
+    #: What it removes from the base case, in the order of the axes.
     removals: tuple[str, ...] = ()
     options: Assignments = ()
 

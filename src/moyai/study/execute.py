@@ -33,17 +33,17 @@ Backend = Callable[[Task, tuple[Combination, ...]], Iterator[LedgerRecord]]
 class Standing:
     """How far a study is, for whoever watches."""
 
-    #: ``done``, ``total``, ``failed``: Cases; refused ones count as failed.
+    #: Cases done.
     done: int
-    #: See ``done``.
+    #: Cases in all.
     total: int
-    #: See ``done``.
+    #: Cases that failed; refused ones count.
     failed: int
     #: Estimated from the rate so far, NaN at the start [s].
     seconds_left: float
-    #: ``largest``, ``smallest``: Of the watched response: value and number of the case.
+    #: Largest value of the watched response, and number of the case.
     largest: tuple[float, int] | None
-    #: See ``largest``.
+    #: Smallest value of the watched response, and number of the case.
     smallest: tuple[float, int] | None
     #: The case that ended last.
     latest: LedgerRecord | None = None

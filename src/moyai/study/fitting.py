@@ -37,9 +37,9 @@ class ObservationRow:
 
     #: What it sets in the case.
     changes: tuple[tuple[str, Any], ...]
-    #: ``observed``, ``error``: Observation and its standard error (NaN where not given).
+    #: The observation.
     observed: float
-    #: See ``observed``.
+    #: Its standard error; NaN where not given.
     error: float
     #: Storm or test.
     group: str

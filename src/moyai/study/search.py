@@ -67,9 +67,9 @@ class LimitRun:
     run: RunCase
     #: Path that is raised.
     path: str
-    #: ``first``, ``last``: Range, as a case file holds it.
+    #: Start of the range, as a case file holds it.
     first: Any
-    #: See ``first``.
+    #: End of the range, as a case file holds it.
     last: Any
     #: What must hold.
     limits: tuple[ResponseLimit, ...]
@@ -134,11 +134,11 @@ class OptimiseRun:
     limits: tuple[ResponseLimit, ...]
     #: Response whose limit comes with the case, empty when there is none.
     trade_off: str
-    #: ``starts``, ``evaluations``, ``seed``: Effort; the starting points are a Latin hypercube.
+    #: Number of starting points, a Latin hypercube.
     starts: int
-    #: See ``starts``.
+    #: Most evaluations from each starting point.
     evaluations: int
-    #: See ``starts``.
+    #: Seed of the Latin hypercube.
     seed: int
     #: What the case brings (``@at_most``).
     options: dict[str, Any] = field(default_factory=dict)

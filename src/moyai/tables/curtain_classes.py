@@ -16,13 +16,13 @@ _FILE = "curtain_classes.csv"
 class CurtainClass:
     """One class; NaN where the source gives no number."""
 
-    #: ``name``, ``practice``: Letter or numeral, and whose practice.
+    #: Letter or numeral.
     name: str
-    #: See ``name``.
+    #: Whose practice.
     practice: str
-    #: ``significant_height``, ``current``: Largest H_1/3 [m] and current [m/s].
+    #: Largest H_1/3 [m].
     significant_height: float
-    #: See ``significant_height``.
+    #: Largest current [m/s].
     current: float
     #: [m].
     float_diameter: float

@@ -23,9 +23,9 @@ RuleName = Literal["safety_factor", "partial_mean", "partial_dynamic", "load_fac
 class CodeRule:
     """One value of a design code."""
 
-    #: ``code``, ``edition``: Name and edition.
+    #: Name of the code.
     code: str
-    #: See ``code``.
+    #: Edition of the code.
     edition: str
     #: ``intact``, ``one_lost`` or ``any``.
     condition: Literal["intact", "one_lost", "any"]

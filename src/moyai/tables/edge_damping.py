@@ -15,12 +15,11 @@ class EdgeDampingNumbers:
 
     #: C_p of a sharp corner of 90 degrees.
     edge_pressure: float
-    #: ``plate_drag``, ``plate_exponent``, ``plate_keulegan_carpenter``: C_D = plate_drag KC^plate_exponent of a thin
-    #: plate, and the KC that it is taken at.
+    #: Factor of C_D = plate_drag KC^plate_exponent of a thin plate.
     plate_drag: float
-    #: See ``plate_drag``.
+    #: Exponent of the same law.
     plate_exponent: float
-    #: See ``plate_drag``.
+    #: KC that the same law is taken at.
     plate_keulegan_carpenter: float
     #: Turn of the outline below which a vertex is smooth [degrees].
     smallest_turn: float

@@ -16,9 +16,9 @@ _FILE = "flume_materials.csv"
 class FlumeMaterial:
     """A material with the range of its properties."""
 
-    #: ``name``, ``material``: Catalogue name and what it is.
+    #: Catalogue name.
     name: str
-    #: See ``name``.
+    #: What it is.
     material: str
     #: Low and high modulus E [Pa].
     modulus: tuple[float, float]

@@ -19,9 +19,9 @@ _FILE = "lines.csv"
 class LineProperties:
     """Properties of one mooring line type at one diameter."""
 
-    #: ``name``, ``material``: Catalogue name and what it is.
+    #: Catalogue name.
     name: str
-    #: See ``name``.
+    #: What it is.
     material: str
     #: Nominal diameter d (bar diameter of a chain) [m].
     diameter: float
@@ -33,10 +33,9 @@ class LineProperties:
     axial_stiffness: float
     #: Minimum breaking load, new [N].
     breaking_load: float
-    #: ``drag_normal``, ``drag_tangential``: Drag coefficients on the nominal diameter [-]: force per length rho/2 C d
-    #: u|u|.
+    #: Drag coefficient across, on the nominal diameter [-]: force per length rho/2 C d u|u|.
     drag_normal: float
-    #: See ``drag_normal``.
+    #: Drag coefficient along, on the nominal diameter [-]: force per length as across.
     drag_tangential: float
     #: Added-mass coefficient across, on the displaced volume [-].
     added_mass_normal: float

@@ -17,9 +17,9 @@ _FILE = "member_drag.csv"
 class DragEntry:
     """One row."""
 
-    #: ``drag``, ``inertia``: C_D and C_M [-]; NaN where the table gives none.
+    #: C_D [-]; NaN where the table gives none.
     drag: float
-    #: See ``drag``.
+    #: C_M [-]; NaN where the table gives none.
     inertia: float
     #: Least Reynolds number of its measurements.
     reynolds_low: float

@@ -124,9 +124,9 @@ class NetMaterial:
     material: str
     #: [kg/m3].
     density: float
-    #: ``modulus``, ``strength``: Low and high, on the nominal section [Pa].
+    #: Low and high modulus, on the nominal section [Pa].
     modulus: tuple[float, float]
-    #: See ``modulus``.
+    #: Low and high strength, on the nominal section [Pa].
     strength: tuple[float, float]
     confirmed: bool
     source: str
@@ -192,10 +192,9 @@ class FoulingEntry:
 
     name: str
     meaning: str
-    #: ``diameter_factor``, ``drag_factor``: Fouled over clean twine diameter, or drag; NaN for the one that the source
-    #: does not give [-].
+    #: Fouled over clean twine diameter [-]; NaN where the source does not give it.
     diameter_factor: float
-    #: See ``diameter_factor``.
+    #: Fouled over clean drag [-]; NaN where the source does not give it.
     drag_factor: float
     #: Of the growth [kg/m3].
     density: float

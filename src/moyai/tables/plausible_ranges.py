@@ -37,9 +37,9 @@ class PlausibleRange:
     factors: tuple[Factor, ...]
     #: SI unit of a single key; ratios have none.
     unit: str
-    #: ``possible``, ``usual``: Closed ranges; outside the first it is an error, outside the second a warning.
+    #: Closed range outside of which it is an error.
     possible: tuple[float, float]
-    #: See ``possible``.
+    #: Closed range outside of which it is a warning.
     usual: tuple[float, float]
     #: The quantity in words.
     what: str

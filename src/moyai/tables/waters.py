@@ -14,9 +14,9 @@ _FILE = "waters.csv"
 class WaterProperties:
     """Properties of a water at 20 degrees Celsius."""
 
-    #: ``name``, ``water``: Short name, and which water.
+    #: Short name.
     name: str
-    #: See ``name``.
+    #: Which water.
     water: str
     #: [kg/m3].
     density: float

@@ -40,14 +40,13 @@ class PowerLawNet(NetLaw):
     basis: ClassVar[str] = "one net"
     skin: ClassVar[str] = "no force at zero solidity; the tangential share along the panel"
 
-    #: ``factor``, ``exponent``: A and B.
+    #: Factor A of C_D = A Re^-B.
     factor: float
-    #: See ``factor``.
+    #: Exponent B of the same law.
     exponent: float
-    #: ``lowest``, ``highest``: Range of Re that they were found in: below it the power law is extrapolated up to the
-    #: cap, above it C_D is held.
+    #: Lowest Re that A and B were found at: below it the power law is extrapolated up to the cap.
     lowest: float = 0.0
-    #: See ``lowest``.
+    #: Highest Re that A and B were found at: above it C_D is held.
     highest: float = math.inf
     #: Largest C_D on the area of the twines [-].
     cap: float = 3.0

@@ -33,10 +33,9 @@ class ModelAgreement:
     skill: float
     #: Willmott's d [-].
     index_of_agreement: float
-    #: ``paper_error``, ``paper_error_spread``: Mean and root mean square of (model - observation)/model, the error of
-    #: Tabata et al. [-].
+    #: Mean of (model - observation)/model, the error of Tabata et al. [-].
     paper_error: float
-    #: See ``paper_error``.
+    #: Root mean square of (model - observation)/model [-].
     paper_error_spread: float
 
 

@@ -156,10 +156,9 @@ class ForceFit:
     condition: float
     #: Bootstrap samples; shape (bootstrap, 2).
     samples: Array
-    #: ``force``, ``residual``: Morison's force by the fit, with mean and harmonics, and what is left [N/m]; shape
-    #: (samples,).
+    #: Morison's force by the fit, with mean and harmonics [N/m]; shape (samples,).
     force: Array
-    #: See ``force``.
+    #: What the fit leaves of the force [N/m]; shape (samples,).
     residual: Array
     #: Share of the variance of the force that is explained.
     explained: float

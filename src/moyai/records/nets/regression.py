@@ -29,9 +29,9 @@ class NetPowerLaw:
     """C_D = A Re^-B of one net."""
 
     net: str
-    #: ``factor``, ``exponent``: A and B.
+    #: Factor A of C_D = A Re^-B.
     factor: float
-    #: See ``factor``.
+    #: Exponent B of the same law.
     exponent: float
     #: Interval of the factor at the confidence asked for.
     factor_interval: tuple[float, float]
@@ -139,14 +139,13 @@ class JointLaw:
     solidity_range: tuple[float, float]
     #: Twine diameters that the law was fitted to [m].
     diameter_range: tuple[float, float]
-    #: ``count``, ``nets``: Runs and nets.
+    #: Number of runs.
     count: int
-    #: See ``count``.
+    #: Number of nets.
     nets: int
-    #: ``left_out_error``, ``pooled_error``: Root mean square of ln C_D predicted for nets left out, by this law and by
-    #: one power law for all.
+    #: Root mean square error of ln C_D predicted by this law for nets left out.
     left_out_error: float
-    #: See ``left_out_error``.
+    #: Root mean square error of ln C_D predicted for nets left out by one power law for all.
     pooled_error: float
     confidence: float
 

@@ -21,9 +21,9 @@ _LEAST_SHARE = 0.1
 class Mean:
     """A mean and what is known of it."""
 
-    #: ``value``, ``error``: Mean and its standard error.
+    #: The mean.
     value: float
-    #: See ``value``.
+    #: Its standard error.
     error: float
     #: Effective number of independent samples less one.
     freedom: float

@@ -18,9 +18,9 @@ class Rig:
 
     #: Samples per second [Hz].
     rate: float = 50.0
-    #: ``frame_drag_area``, ``frame_volume``: C_D A [m2] and C_M V [m3] of the bare frame.
+    #: C_D A of the bare frame [m2].
     frame_drag_area: float = 4e-3
-    #: See ``frame_drag_area``.
+    #: C_M V of the bare frame [m3].
     frame_volume: float = 2e-5
     #: [Hz].
     vibration_frequency: float = 3.0
@@ -30,12 +30,11 @@ class Rig:
     vibration_force: float = 0.15
     #: Mass on the gauge [kg]: the carriage's acceleration is the vibration's force over it.
     shaken_mass: float = 1.2
-    #: ``white_noise``, ``slow_noise``, ``slow_time``: Root mean square of white and of slow noise [N], its correlation
-    #: time [s].
+    #: Root mean square of white noise [N].
     white_noise: float = 0.02
-    #: See ``white_noise``.
+    #: Root mean square of slow noise [N].
     slow_noise: float = 0.02
-    #: See ``white_noise``.
+    #: Correlation time of the slow noise [s].
     slow_time: float = 1.5
     #: Lift over drag [-].
     lift_share: float = 0.0

@@ -24,9 +24,9 @@ _LEAST_RISE = 3
 class EndRecord:
     """Tension at one end of a line."""
 
-    #: ``line``, ``end``: For instance ``shore`` and ``cage``.
+    #: Name of the line, for instance ``shore``.
     line: str
-    #: See ``line``.
+    #: Name of its end, for instance ``cage``.
     end: str
     #: [N]; shape (samples,).
     tension: Array
@@ -80,20 +80,19 @@ class EndTension:
 
     line: str
     end: str
-    #: ``mean``, ``least``, ``peak``: Over the whole window, as recorded [N].
+    #: Mean over the whole window, as recorded [N].
     mean: float
-    #: See ``mean``.
+    #: Lowest value of the whole window, as recorded [N].
     least: float
-    #: See ``mean``.
+    #: Highest value of the whole window, as recorded [N].
     peak: float
-    #: ``mean_peak``, ``peak_deviation``: Mean and standard deviation of the peaks of single periods [N].
+    #: Mean of the peaks of single periods [N].
     mean_peak: float
-    #: See ``mean_peak``.
+    #: Standard deviation of the peaks of single periods [N].
     peak_deviation: float
-    #: ``first``, ``first_phase``: Amplitude [N] and phase [rad] of the first harmonic, Re(X e^{-i omega t}) about the
-    #: start of the window.
+    #: Amplitude of the first harmonic, Re(X e^{-i omega t}) about the start of the window [N].
     first: float
-    #: See ``first``.
+    #: Phase of the first harmonic [rad].
     first_phase: float
     #: Share of the time below 2 % of the peak [-].
     slack: float

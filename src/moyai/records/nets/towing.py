@@ -55,17 +55,17 @@ class TowCoefficients:
     reynolds: float
     #: Subtracted [N].
     frame_force: float
-    #: ``drag``, ``drag_half_width``, ``drag_error``: C_D on the twines, half of its interval, standard error [-].
+    #: C_D on the twines [-].
     drag: float
-    #: See ``drag``.
+    #: Half of the interval of C_D [-].
     drag_half_width: float
-    #: See ``drag``.
+    #: Standard error of C_D [-].
     drag_error: float
     #: Effective degrees of freedom.
     freedom: float
-    #: ``lift``, ``lift_half_width``: C_L on the same area; NaN where it was not measured.
+    #: C_L on the same area [-]; NaN where it was not measured.
     lift: float
-    #: See ``lift``.
+    #: Half of the interval of C_L [-]; NaN where it was not measured.
     lift_half_width: float
 
 

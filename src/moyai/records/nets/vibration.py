@@ -31,11 +31,11 @@ _WIDEST = 0.3
 class Vibration:
     """A line of the spectrum."""
 
-    #: ``frequency``, ``low``, ``high``: Of the line and the band that holds it [Hz].
+    #: Of the line [Hz].
     frequency: float
-    #: See ``frequency``.
+    #: Lower end of the band that holds the line [Hz].
     low: float
-    #: See ``frequency``.
+    #: Upper end of the band that holds the line [Hz].
     high: float
     #: Root mean square of the force in the band, mean over the runs [N].
     amplitude: float = math.nan
@@ -55,12 +55,11 @@ class Vibration:
 class VibrationSearch:
     """What the search saw."""
 
-    #: ``frequency``, ``density``, ``background``: [Hz]; mean density of the runs, each over its own median, and the
-    #: smooth one about it [-].
+    #: Frequencies of the spectrum [Hz].
     frequency: Array
-    #: See ``frequency``.
+    #: Mean spectral density of the runs, each over its own median [-].
     density: Array
-    #: See ``frequency``.
+    #: The smooth density about it [-].
     background: Array
     found: Vibration | None
     #: Prominence from which on an estimate is called a line [-].

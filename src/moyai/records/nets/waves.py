@@ -54,10 +54,9 @@ class WaveCoefficients:
     run: str
     net: str
     kind: str
-    #: ``reynolds``, ``keulegan_carpenter``: Largest speed times d / nu; amplitude of the wave's velocity times its
-    #: period over d [-].
+    #: Largest speed times d / nu [-].
     reynolds: float
-    #: See ``reynolds``.
+    #: Amplitude of the wave's velocity times its period over d [-].
     keulegan_carpenter: float
     #: Amplitude of the velocity [m/s].
     velocity_amplitude: float
@@ -65,19 +64,19 @@ class WaveCoefficients:
     mean_velocity: float
     #: As met [s].
     period: float
-    #: ``drag``, ``inertia``: C_D on the area of the twines, C_M on their volume [-].
+    #: C_D on the area of the twines [-].
     drag: float
-    #: See ``drag``.
+    #: C_M on the volume of the twines [-].
     inertia: float
     #: Half of the interval of the drag coefficient [-].
     drag_half_width: float
     #: Half of the interval of the inertia coefficient [-].
     inertia_half_width: float
-    #: ``drag_error``, ``inertia_error``, ``correlation``: Standard errors and correlation of both [-].
+    #: Standard error of the drag coefficient [-].
     drag_error: float
-    #: See ``drag_error``.
+    #: Standard error of the inertia coefficient [-].
     inertia_error: float
-    #: See ``drag_error``.
+    #: Correlation of both coefficients [-].
     correlation: float
     #: Whether the interval of the drag coefficient is narrower than half of it.
     drag_known: bool
@@ -89,21 +88,19 @@ class WaveCoefficients:
     frame_inertia_volume: float
     #: Share of the variance of the whole force that the fit explains.
     explained: float
-    #: ``lift_amplitude``, ``lift_share``: C_L by the root mean square of lift and of u^2, and rms lift over rms drag
-    #: force [-]; NaN without lift.
+    #: C_L by the root mean square of lift and of u^2 [-]; NaN without lift.
     lift_amplitude: float
-    #: See ``lift_amplitude``.
+    #: Root mean square of the lift over that of the drag force [-]; NaN without lift.
     lift_share: float
-    #: ``time``, ``velocity``, ``force``, ``modelled``, ``raw``: Record with the frame's force taken off, and the fit
-    #: [s], [m/s], [N]; ``raw`` as measured.
+    #: Instants of the record [s].
     time: Array
-    #: See ``time``.
+    #: Velocity of the record [m/s].
     velocity: Array
-    #: See ``time``.
+    #: Force of the record with that of the frame taken off [N].
     force: Array
-    #: See ``time``.
+    #: Force by the fit [N].
     modelled: Array
-    #: See ``time``.
+    #: Force as measured [N].
     raw: Array
 
 

@@ -70,9 +70,9 @@ class DoubtfulStretch:
 
     channel: str
     kind: str
-    #: ``start``, ``end``: First and last instant [s].
+    #: First instant [s].
     start: float
-    #: See ``start``.
+    #: Last instant [s].
     end: float
     #: Samples.
     count: int
@@ -407,9 +407,9 @@ class ChannelDrift:
     """Trend of a channel's block means."""
 
     channel: str
-    #: ``rate``, ``error``: Change per second and its standard error [unit/s].
+    #: Change per second [unit/s].
     rate: float
-    #: See ``rate``.
+    #: Standard error of the rate [unit/s].
     error: float
     #: Change over the record [unit].
     change: float

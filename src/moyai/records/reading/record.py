@@ -49,9 +49,9 @@ class Record:
     time: Array
     #: Samples in SI units; NaN where missing; shape (samples, channels).
     values: Array
-    #: ``names``, ``units``: Name and SI unit of each channel.
+    #: Name of each channel.
     names: tuple[str, ...]
-    #: See ``names``.
+    #: SI unit of each channel.
     units: tuple[str, ...]
     #: Whether ``time`` is a date.
     dated: bool = False

@@ -41,11 +41,11 @@ class Sensor:
     #: What it measures: elevation [m], pressure [Pa], velocity [m/s], slope [rad], displacement of a buoy [m], vertical
     #: acceleration [m/s2].
     quantity: Quantity
-    #: ``x``, ``y``, ``z``: Where [m]; z from the mean water level, upwards.
+    #: Where along x [m].
     x: float = 0.0
-    #: See ``x``.
+    #: Where along y [m].
     y: float = 0.0
-    #: See ``x``.
+    #: Where from the mean water level, upwards [m].
     z: float = 0.0
 
     @property

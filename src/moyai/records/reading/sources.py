@@ -46,9 +46,9 @@ class ColumnSource:
     name: str
     #: Unit in the file; empty takes the one that the file states.
     unit: str = ""
-    #: ``scale``, ``offset``: Applied before the unit: ``value * scale + offset``.
+    #: Factor, applied before the unit: ``value * scale + offset``.
     scale: float = 1.0
-    #: See ``scale``.
+    #: Added after the factor, before the unit.
     offset: float = 0.0
     #: Numbers and words that mean "no value"; a word that is a number (``"-99"``) is read as that number too.
     missing: tuple[float | str, ...] = ()

@@ -99,9 +99,9 @@ def _bytes(path: Path, most: int) -> bytes:
 class TextLayout:
     """How a text file is laid out."""
 
-    #: ``encoding``, ``delimiter``: As pandas and Python name them.
+    #: As Python names it.
     encoding: str
-    #: See ``encoding``.
+    #: As pandas names it.
     delimiter: str
     #: Empty where the file has none.
     headings: tuple[str, ...]

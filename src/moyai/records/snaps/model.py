@@ -20,9 +20,9 @@ Origin = Literal["measured", "generated"]
 class SnapRun:
     """One release."""
 
-    #: ``name``, ``cable``: Of the run, of the material of its cables.
+    #: Of the run.
     name: str
-    #: See ``name``.
+    #: Material of its cables.
     cable: str
     #: The span; its speed is that of the current.
     impact: Impact
@@ -66,11 +66,11 @@ class Exponents:
     of: str
     #: ``froude``, ``span_ratio``, ``depth_ratio``, ``cauchy`` as far as they vary.
     names: tuple[str, ...]
-    #: ``values``, ``low``, ``high``: Exponents and their bounds of 95 %.
+    #: Exponents.
     values: tuple[float, ...]
-    #: See ``values``.
+    #: Lower bounds of 95 %.
     low: tuple[float, ...]
-    #: See ``values``.
+    #: Upper bounds of 95 %.
     high: tuple[float, ...]
     #: Standard deviation of the logarithm of C_T about the product.
     scatter: float
@@ -81,11 +81,11 @@ class SnapAgreement:
     """A model over the records of all runs."""
 
     model: str
-    #: ``ratio``, ``low``, ``high``: Geometric mean of model over record, and its bounds of 95 %.
+    #: Geometric mean of model over record [-].
     ratio: float
-    #: See ``ratio``.
+    #: Its lower bound of 95 % [-].
     low: float
-    #: See ``ratio``.
+    #: Its upper bound of 95 % [-].
     high: float
     #: Standard deviation of the logarithm of that ratio.
     scatter: float

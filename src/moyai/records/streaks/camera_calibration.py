@@ -37,14 +37,13 @@ class Refraction:
 
     #: From the camera's centre of projection to the outside of the wall [m].
     camera_to_wall: float
-    #: ``wall_thickness``, ``wall_index``: Thickness [m] and refractive index of the wall.
+    #: Thickness of the wall [m].
     wall_thickness: float
-    #: See ``wall_thickness``.
+    #: Refractive index of the wall.
     wall_index: float
-    #: ``sheet_distance``, ``water_index``: From the inside of the wall to the light sheet [m], and refractive index of
-    #: the water.
+    #: From the inside of the wall to the light sheet [m].
     sheet_distance: float
-    #: See ``sheet_distance``.
+    #: Refractive index of the water.
     water_index: float
 
     def __post_init__(self) -> None:

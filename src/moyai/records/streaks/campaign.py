@@ -61,9 +61,9 @@ class StreakRun:
 class StreakCampaign:
     """Everything that a measurement needs."""
 
-    #: ``title``, ``section``: Title, and the section in words.
+    #: Title of the campaign.
     title: str
-    #: See ``title``.
+    #: The section in words.
     section: str
     #: Closed outline about the centre of the section [m]; shape (n, 2).
     outline: Array

@@ -22,9 +22,9 @@ LEAST_KC, MOST_KC = 1.0, 2.0
 class MeasuredCirculationLaw:
     """Circulation = coefficient * f B^2 KC^2."""
 
-    #: ``coefficient``, ``deviation``: Dimensionless coefficient and its standard error (NaN with one run).
+    #: Dimensionless coefficient.
     coefficient: float
-    #: See ``coefficient``.
+    #: Standard error of the coefficient; NaN with one run.
     deviation: float
     #: coefficient * f B^2 of each run [m2/s].
     dimensional: Array

@@ -30,20 +30,19 @@ class ContourCirculation:
 
     #: Sizes Bc/B of the contours.
     size_ratio: Array
-    #: ``value``, ``deviation``: Circulation of each contour [m2/s] and its standard error from drawn clouds; NaN where
-    #: the contour leaves the cloud of particles.
+    #: Circulation of each contour [m2/s]; NaN where the contour leaves the cloud of particles.
     value: Array
-    #: See ``value``.
+    #: Its standard error from drawn clouds [m2/s]; NaN at the same contours.
     deviation: Array
-    #: ``limit``, ``limit_interval``: Circulation G without the Stokes drift, and its confidence interval [m2/s].
+    #: Circulation G without the Stokes drift [m2/s].
     limit: float
-    #: See ``limit``.
+    #: Confidence interval of G [m2/s].
     limit_interval: tuple[float, float]
     #: The c of G + c (B/Bc)^4 [m2/s].
     stokes_term: float
-    #: ``linear``, ``linear_interval``: Straight line through all contours at Bc/B = 1, as the paper does [m2/s].
+    #: Straight line through all contours at Bc/B = 1, as the paper does [m2/s].
     linear: float
-    #: See ``linear``.
+    #: Confidence interval of that value [m2/s].
     linear_interval: tuple[float, float]
     #: Level of the intervals.
     confidence: float

@@ -18,10 +18,9 @@ from moyai.records.streaks.fit import PARAMETERS, fit_streaks, gather_pixels, st
 class DetectionSettings:
     """How streaks are distinguished from noise."""
 
-    #: ``threshold``, ``edge_threshold``: A region needs a pixel ``threshold`` and reaches out to ``edge_threshold``
-    #: standard deviations of the noise above the background, in the picture smoothed a little.
+    #: A region needs a pixel so many standard deviations of the noise above the background, in the smoothed picture.
     threshold: float = 7.0
-    #: See ``threshold``.
+    #: The region reaches out to so many standard deviations above the background.
     edge_threshold: float = 3.5
     #: Standard deviation of that smoothing [pixels].
     smoothing: float = 1.0

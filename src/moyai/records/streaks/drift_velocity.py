@@ -21,13 +21,13 @@ from moyai.core.errors import InputError
 class StreakChain:
     """Streaks of one particle in the order of time."""
 
-    #: ``start_time``, ``end_time``: Instants at which the light is switched on and off [s]; shape (streaks,).
+    #: Instants at which the light is switched on [s]; shape (streaks,).
     start_time: Array
-    #: See ``start_time``.
+    #: Instants at which the light is switched off [s]; shape (streaks,).
     end_time: Array
-    #: ``start``, ``end``: Positions x, z at these instants [m]; shape (streaks, 2).
+    #: Positions x, z when the light is switched on [m]; shape (streaks, 2).
     start: Array
-    #: See ``start``.
+    #: Positions x, z when the light is switched off [m]; shape (streaks, 2).
     end: Array
 
     def __post_init__(self) -> None:

@@ -30,9 +30,9 @@ class SectionMap:
     """Map of the outside of the unit circle onto that of a section, ``Z = x + i z = f(zeta)`` [eq:streaks-map]."""
 
     kind: Literal["circle", "rectangle"]
-    #: ``breadth``, ``height``: Sizes along x and z [m].
+    #: Size along x [m].
     breadth: float
-    #: See ``breadth``.
+    #: Size along z [m].
     height: float
     #: f'(infinity), the radius of the circle of equal outer mapping [m].
     scale: float
@@ -183,10 +183,9 @@ class OrbitalFlow:
     section: SectionMap | None
     #: Wave period [s].
     period: float
-    #: ``amplitude_x``, ``amplitude_z``: Velocity amplitudes of the undisturbed orbit at the centre, ``u = amplitude_x
-    #: cos(omega t)``, ``w = -amplitude_z sin(omega t)`` [m/s].
+    #: Velocity amplitude along x of the undisturbed orbit at the centre, ``u = amplitude_x cos(omega t)`` [m/s].
     amplitude_x: float
-    #: See ``amplitude_x``.
+    #: Velocity amplitude along z of that orbit, ``w = -amplitude_z sin(omega t)`` [m/s].
     amplitude_z: float
     #: Positive about +y (clockwise with x to the right, z up) [m2/s].
     circulation: float = 0.0

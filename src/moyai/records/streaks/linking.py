@@ -59,9 +59,9 @@ class LinkedChain:
     """A chain and the streaks that it is made of."""
 
     chain: StreakChain
-    #: ``picture``, ``streak``: Picture and number in it of every streak, in the order of time.
+    #: Picture of every streak, in the order of time.
     picture: IntArray
-    #: See ``picture``.
+    #: Number of every streak in its picture.
     streak: IntArray
     #: Pulse that made it.
     pulse: IntArray

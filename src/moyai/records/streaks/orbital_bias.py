@@ -28,10 +28,9 @@ class Orbits:
     section: SectionMap
     #: Wave period [s].
     period: float
-    #: ``amplitude_x``, ``amplitude_z``: Velocity amplitudes as in :class:`moyai.records.streaks.flow.OrbitalFlow`;
-    #: ``amplitude_z`` below 0 for waves towards -x [m/s].
+    #: Velocity amplitude along x as in :class:`moyai.records.streaks.flow.OrbitalFlow` [m/s].
     amplitude_x: float
-    #: See ``amplitude_x``.
+    #: Velocity amplitude along z as in the same, below 0 for waves towards -x [m/s].
     amplitude_z: float
 
     def drift(self, position: Array, circulation: float) -> tuple[Array, Array]:

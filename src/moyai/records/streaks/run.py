@@ -52,25 +52,23 @@ class Recording:
 class DriftCloud:
     """Drift velocities of one recording or of several."""
 
-    #: ``position``, ``velocity``: Mean positions [m] and drift velocities [m/s]; shape (particles, 2).
+    #: Mean positions [m]; shape (particles, 2).
     position: Array
-    #: See ``position``.
+    #: Drift velocities [m/s]; shape (particles, 2).
     velocity: Array
-    #: ``deviation``, ``residual``: Standard error of a component of the velocity [m/s] and misfit of the ends [m];
-    #: shape (particles,).
+    #: Standard error of a component of the velocity [m/s]; shape (particles,).
     deviation: Array
-    #: See ``deviation``.
+    #: Misfit of the ends [m]; shape (particles,).
     residual: Array
-    #: ``streaks``, ``chains``, ``refused``, ``undecided``, ``rejected``: Streaks found, chains linked, chains too short
-    #: or too rough for a drift, chains without direction, regions that are no streaks.
+    #: Streaks found.
     streaks: int = 0
-    #: See ``streaks``.
+    #: Chains linked.
     chains: int = 0
-    #: See ``streaks``.
+    #: Chains too short or too rough for a drift.
     refused: int = 0
-    #: See ``streaks``.
+    #: Chains without direction.
     undecided: int = 0
-    #: See ``streaks``.
+    #: Regions that are no streaks.
     rejected: int = 0
 
     @property
@@ -357,9 +355,9 @@ def gather(datasets: Sequence[xr.Dataset]) -> DriftCloud:
 class BackgroundDrift:
     """Drift without a model: settling and mass transport as a linear function of the level."""
 
-    #: ``mean``, ``gradient``: Drift x, z at z = 0 [m/s] and its growth with z [1/s]; shape (2,).
+    #: Drift x, z at z = 0 [m/s]; shape (2,).
     mean: Array
-    #: See ``mean``.
+    #: Growth of the drift with z [1/s]; shape (2,).
     gradient: Array
     #: Particles that it was measured from; 0 when it was given.
     particles: int = 0

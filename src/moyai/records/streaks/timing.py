@@ -23,9 +23,9 @@ LEAST_EVIDENCE = 5.0
 class PulseTrain:
     """Pulses of light while the shutter is open, or over the frames of a film."""
 
-    #: ``start``, ``duration``: Instants at which the light is switched on, and on-times [s]; shape (pulses,).
+    #: Instants at which the light is switched on [s]; shape (pulses,).
     start: Array
-    #: See ``start``.
+    #: On-times [s]; shape (pulses,).
     duration: Array
     #: Relative brightness of the light; shape (pulses,).
     power: Array

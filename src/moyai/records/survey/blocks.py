@@ -44,9 +44,9 @@ class BlockResult:
     counts: dict[str, dict[str, int]]
     findings: tuple[DoubtfulStretch, ...]
     gaps: tuple[tuple[float, float], ...]
-    #: ``lacking``, ``samples``: Samples that gaps lack, and those there are (of the first logger).
+    #: Samples that gaps lack.
     lacking: int
-    #: See ``lacking``.
+    #: Samples there are, of the first logger.
     samples: int
     #: By channel: statistics of waves.
     waves: dict[str, dict[str, float]] = field(default_factory=dict)

@@ -35,17 +35,17 @@ class Storm:
     #: [s since 1970 UTC].
     start: float
     days: float
-    #: ``peak_height``, ``peak_day``: Highest H1/3 [m] and when [d after the start].
+    #: Highest H1/3 [m].
     peak_height: float
-    #: See ``peak_height``.
+    #: When H1/3 is highest [d after the start].
     peak_day: float
     #: H1/3 far from the peak [m].
     calm_height: float
     #: Standard deviation of the storm in time [d].
     duration: float
-    #: ``angle_start``, ``angle_end``: Angle of the waves from the normal of the curtain, first and last [rad].
+    #: First angle of the waves from the normal of the curtain [rad].
     angle_start: float
-    #: See ``angle_start``.
+    #: Last angle of the waves from that normal [rad].
     angle_end: float
 
 
@@ -82,9 +82,9 @@ class CampaignLaws:
     rope_stiffness: float = 890e3
     #: Tension goes with the cosine of the angle to this power.
     angle_exponent: float = 2.0
-    #: ``type_ratio``, ``wire_ratio``: New over conventional type; tension wire over anchor rope.
+    #: Tension of the new type over that of the conventional one [-].
     type_ratio: float = 0.7
-    #: See ``type_ratio``.
+    #: Tension of the tension wire over that of the anchor rope [-].
     wire_ratio: float = 0.6
     #: Speed that the slack of the rope takes up before it pulls [m/s].
     slack_speed: float = 0.35
@@ -102,9 +102,9 @@ class CampaignLaws:
     steady_conventional: float = 11.0e3
     #: Standard deviation of its slow wander, over the mean.
     steady_scatter: float = 0.07
-    #: ``tide_speed``, ``tide_period``: Amplitude [m/s] and period [s] of the current along the normal.
+    #: Amplitude of the current along the normal [m/s].
     tide_speed: float = 0.18
-    #: See ``tide_speed``.
+    #: Period of that current [s].
     tide_period: float = 44714.0
     #: Current along the curtain over that along its normal, a quarter of a period later.
     cross_share: float = 0.5

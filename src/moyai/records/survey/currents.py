@@ -42,9 +42,9 @@ class MeanCurrents:
     start: Array
     #: Samples in each.
     count: Array
-    #: ``x``, ``y``: Vector means [m/s]; NaN in blocks with too few samples.
+    #: Vector mean along x [m/s]; NaN in blocks with too few samples.
     x: Array
-    #: See ``x``.
+    #: Vector mean along y [m/s]; NaN in blocks with too few samples.
     y: Array
     #: Mean of the speed [m/s].
     scalar_speed: Array
@@ -115,9 +115,9 @@ class PrincipalAxis:
 
     #: Of the axis, in (-pi/2, pi/2] [rad].
     heading: float
-    #: ``major``, ``minor``: Standard deviations along and across [m/s].
+    #: Standard deviation along the axis [m/s].
     major: float
-    #: See ``major``.
+    #: Standard deviation across the axis [m/s].
     minor: float
 
 
@@ -148,12 +148,12 @@ class Profile:
     y: Array
     #: Share of samples that were good in each bin.
     share: Array
-    #: ``exponent``, ``surface_speed``, ``exponent_error``: Power law ``speed = surface_speed (z / top)^exponent``
-    #: fitted to the speed along the mean direction; NaN where the profile does not allow it.
+    #: Of the power law ``speed = surface_speed (z / top)^exponent`` of the speed along the mean direction; NaN where
+    #: the profile does not allow it.
     exponent: float
-    #: See ``exponent``.
+    #: Speed of that law at the surface [m/s]; NaN where there is none.
     surface_speed: float
-    #: See ``exponent``.
+    #: Standard error of the exponent [-]; NaN where there is none.
     exponent_error: float
     #: Mean over the profiled height (x, y) [m/s].
     depth_mean: tuple[float, float]

@@ -29,9 +29,9 @@ class FlumeRecord:
 
     #: Instants of the record's own clock [s]; shape (samples,).
     time: Array
-    #: ``names``, ``units``: Name and unit of each channel; the unit is empty where the file states none.
+    #: Name of each channel.
     names: tuple[str, ...]
-    #: See ``names``.
+    #: Unit of each channel; empty where the file states none.
     units: tuple[str, ...]
     #: Values as stored; missing ones are NaN; shape (samples, channels).
     values: Array
@@ -68,9 +68,9 @@ class FlumeLayout:
     model: float
     #: Wave gauges by channel name.
     gauges: Mapping[str, float]
-    #: ``front``, ``behind``: Gauges that separate incident and reflected waves, and gauges of the transmitted wave.
+    #: Gauges that separate incident and reflected waves.
     front: tuple[str, ...]
-    #: See ``front``.
+    #: Gauges of the transmitted wave.
     behind: tuple[str, ...]
 
     def __post_init__(self) -> None:
@@ -95,24 +95,23 @@ class RecordWindow:
 class RegularRun:
     """What one run in regular waves gives."""
 
-    #: ``period``, ``wave_number``: Wave period [s] and wave number [rad/m].
+    #: Wave period [s].
     period: float
-    #: See ``period``.
+    #: Wave number [rad/m].
     wave_number: float
     #: Useful part of the record.
     window: RecordWindow
     #: Mean and harmonics of every channel, phases referred to the record's clock.
     harmonics: Harmonics
-    #: ``mean_spread``, ``amplitude_spread``: How much mean and amplitudes move while the whole periods slide in the
-    #: window.
+    #: How much the mean of every channel moves while the whole periods slide in the window.
     mean_spread: Array
-    #: See ``mean_spread``.
+    #: How much the amplitudes of every channel move meanwhile.
     amplitude_spread: Array
     #: Incident and reflected wave; x = 0 at the centre of the model.
     separation: Separation
-    #: ``reflection``, ``transmission``: Moduli of the reflected and transmitted over the incident first harmonic.
+    #: Modulus of the reflected over the incident first harmonic [-].
     reflection: float
-    #: See ``reflection``.
+    #: Modulus of the transmitted over the incident first harmonic [-].
     transmission: float
     #: The same spread of the reflection coefficient.
     reflection_spread: float

@@ -24,9 +24,9 @@ class IrregularSeparation:
 
     #: [Hz].
     frequency: Array
-    #: ``incident``, ``reflected``: Spectra of waves towards +x and -x [m2/Hz]; NaN where the gauges are badly placed.
+    #: Spectrum of waves towards +x [m2/Hz]; NaN where the gauges are badly placed.
     incident: Array
-    #: See ``incident``.
+    #: Spectrum of waves towards -x [m2/Hz]; NaN where the gauges are badly placed.
     reflected: Array
     #: Density of what two waves leave unexplained, per gauge [m2/Hz]; NaN with two gauges.
     noise: Array
@@ -34,10 +34,9 @@ class IrregularSeparation:
     condition: Array
     #: Frequencies that enter the coefficients.
     used: NDArray[np.bool_]
-    #: ``reflection``, ``reflection_error``: Root of the energy ratio over the band, and its standard error over the
-    #: segments.
+    #: Root of the energy ratio over the band [-].
     reflection: float
-    #: See ``reflection``.
+    #: Its standard error over the segments [-].
     reflection_error: float
     #: Incident 4 sqrt(m0) over the band [m].
     incident_height: float

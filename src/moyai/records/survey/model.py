@@ -63,9 +63,9 @@ class Directions:
 class CurrentUse:
     """Channels of the current: velocities along x and y, or speed and direction."""
 
-    #: ``x``, ``y``: Velocity channels, or speed and direction where ``polar``.
+    #: Channel of the velocity along x, or of the speed where ``polar``.
     x: str
-    #: See ``x``.
+    #: Channel of the velocity along y, or of the direction where ``polar``.
     y: str
     polar: bool = False
     #: Whether the direction is a compass bearing (towards which the current goes).

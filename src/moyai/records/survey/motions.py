@@ -28,12 +28,11 @@ class DecayFit:
     start: float
     #: End of that part [s].
     end: float
-    #: ``period_error``, ``damping_error``, ``quadratic_error``: Standard errors, over the half cycles left out one by
-    #: one.
+    #: Standard error of the period over the half cycles left out one by one.
     period_error: float
-    #: See ``period_error``.
+    #: Standard error of the damping ratio, by the same.
     damping_error: float
-    #: See ``period_error``.
+    #: Standard error of the quadratic damping, by the same.
     quadratic_error: float
     notices: tuple[Notice, ...] = ()
 

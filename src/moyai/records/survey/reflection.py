@@ -32,10 +32,9 @@ LARGEST_CONDITION = 6.32
 class Separation:
     """Incident and reflected waves at one or more frequencies; equation [eq:two-wave-model]."""
 
-    #: ``incident``, ``reflected``: Complex amplitudes at x = 0 of waves towards +x and -x, in the unit of the gauges;
-    #: shape (frequencies,).
+    #: Complex amplitudes at x = 0 of waves towards +x, in the unit of the gauges; shape (frequencies,).
     incident: ComplexArray
-    #: See ``incident``.
+    #: Complex amplitudes at x = 0 of waves towards -x, in the unit of the gauges; shape (frequencies,).
     reflected: ComplexArray
     #: Condition number of the 2 x 2 problem: 1 is ideal, infinite is singular; shape (frequencies,).
     condition: Array

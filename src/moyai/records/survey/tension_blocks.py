@@ -33,9 +33,9 @@ class SingleWaves:
 
     #: Row of :class:`Blocks` that the wave belongs to.
     block: NDArray[np.int64]
-    #: ``height``, ``period``: Own height [m] and period [s].
+    #: Own height [m].
     height: Array
-    #: See ``height``.
+    #: Own period [s].
     period: Array
     #: Largest fluctuating tension, between the samples [N]; NaN where there is none; shape (waves, lines).
     top: Array
@@ -47,11 +47,11 @@ class Blocks:
 
     #: Of each block [s].
     start: Array
-    #: ``maximum_height``, ``significant_height``, ``significant_period``: H_max, H_1/3 [m], T_1/3 [s].
+    #: H_max [m].
     maximum_height: Array
-    #: See ``maximum_height``.
+    #: H_1/3 [m].
     significant_height: Array
-    #: See ``maximum_height``.
+    #: T_1/3 [s].
     significant_period: Array
     #: Waves.
     wave_count: Array
@@ -69,9 +69,9 @@ class Blocks:
     third: Array
     #: Mean of all of them [N]; shape (blocks, lines).
     mean: Array
-    #: ``matched``, ``double``: Waves with a maximum; with a double peak; shape (blocks, lines).
+    #: Waves with a maximum; shape (blocks, lines).
     matched: Array
-    #: See ``matched``.
+    #: Waves with a double peak; shape (blocks, lines).
     double: Array
     #: [s]; shape (blocks, lines).
     delay: Array

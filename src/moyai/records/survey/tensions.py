@@ -201,13 +201,13 @@ def find_delay(time: ArrayLike, elevation: ArrayLike, fluctuating: ArrayLike, *,
 class TensionStatistics:
     """Statistics of the maxima of one block."""
 
-    #: ``maximum``, ``tenth``, ``third``, ``mean``: Largest, means of the highest tenth and third, mean of all [N].
+    #: Largest maximum [N].
     maximum: float
-    #: See ``maximum``.
+    #: Mean of the highest tenth [N].
     tenth: float
-    #: See ``maximum``.
+    #: Mean of the highest third [N].
     third: float
-    #: See ``maximum``.
+    #: Mean of all [N].
     mean: float
     #: Maxima.
     count: int

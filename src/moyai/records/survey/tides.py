@@ -32,9 +32,9 @@ class Ellipse:
     name: str
     #: [s].
     period: float
-    #: ``major``, ``minor``: Semi-axes [m/s]; a negative minor axis turns clockwise.
+    #: Major semi-axis [m/s].
     major: float
-    #: See ``major``.
+    #: Minor semi-axis [m/s]; negative where the current turns clockwise.
     minor: float
     #: Of the major axis, in (-pi/2, pi/2] [rad].
     heading: float

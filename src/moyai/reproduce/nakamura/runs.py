@@ -30,19 +30,17 @@ MODES = ("sway", "heave", "roll")
 class NakamuraRuns:
     """The runs that the figures and statements read."""
 
-    #: ``undamped``, ``damped``, ``drifted``: Frequency domain over :data:`CURVE`: no damping beyond waves; 15 % of
-    #: critical; that and the drift force.
+    #: Frequency domain over :data:`CURVE` with no damping beyond waves.
     undamped: Result
-    #: See ``undamped``.
+    #: Frequency domain over :data:`CURVE` with 15 % of critical damping.
     damped: Result
-    #: See ``undamped``.
+    #: Frequency domain over :data:`CURVE` with that damping and the drift force.
     drifted: Result
-    #: ``undamped_time``, ``damped_time``, ``drifted_time``: The same in time at the periods of the paper, chains at
-    #: rest at every instant.
+    #: Undamped in time at the periods of the paper, chains at rest at every instant.
     undamped_time: Result
-    #: See ``undamped_time``.
+    #: Damped in time, as ``undamped_time``.
     damped_time: Result
-    #: See ``undamped_time``.
+    #: Damped with drift in time, as ``undamped_time``.
     drifted_time: Result
     #: With drift and chains in motion.
     moving_time: Result

@@ -41,9 +41,9 @@ class Release:
     """A release: held on the line between the supports, let go, taut, steady."""
 
     motion: SlackTautMotion
-    #: ``taut``, ``rise``: Taut instant and time from there to the spike [s].
+    #: Taut instant [s].
     taut: float
-    #: See ``taut``.
+    #: Time from the taut instant to the spike [s].
     rise: float
     #: Spike of the sum of both cables [N].
     spike: float

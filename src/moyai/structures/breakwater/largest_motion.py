@@ -58,10 +58,9 @@ class LargestOfPeriods:
     domain: str
     #: Of that domain.
     data: xr.Dataset
-    #: ``frequency``, ``statics``: The same sea in the frequency domain, which stands in where the time domain is out of
-    #: its range; the unit at rest.
+    #: The same sea in the frequency domain, which stands in where the time domain is out of its range.
     frequency: xr.Dataset | None
-    #: See ``frequency``.
+    #: The unit at rest.
     statics: xr.Dataset | None
     #: Level and sea.
     where: str

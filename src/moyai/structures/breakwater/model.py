@@ -128,10 +128,9 @@ class Breakwater:
     damping: Damping = field(default_factory=Damping)
     #: Mass that moves in one mode only (rigs of model tests): sway, heave [kg], roll [kg m2].
     additional_mass: tuple[float, float, float] = (0.0, 0.0, 0.0)
-    #: ``wind_drag_coefficient``, ``current_drag_coefficient``: On the area above and below water; needed where there is
-    #: wind or current.
+    #: On the area above water [-]; needed where there is wind.
     wind_drag_coefficient: float | None = None
-    #: See ``wind_drag_coefficient``.
+    #: On the area below water [-]; needed where there is current.
     current_drag_coefficient: float | None = None
     #: Damping lid of the gaps between pontoons, fraction epsilon in K (1 + i epsilon).
     gap_damping_lid: float = 0.0

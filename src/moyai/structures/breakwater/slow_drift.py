@@ -63,9 +63,9 @@ class SlowDrift:
     natural_period: float
     #: All linear and linearised damping over critical at that period: radiation, lines, what the case gives.
     damping_ratio: float
-    #: ``half_damping``, ``double_damping``: Standard deviation of sway [m] with half and twice that damping.
+    #: Standard deviation of sway with half that damping [m].
     half_damping: float
-    #: See ``half_damping``.
+    #: Standard deviation of sway with twice that damping [m].
     double_damping: float
     #: [rad/s]; shape (k,)
     difference: Array

@@ -50,9 +50,9 @@ class ModelRole:
     of: str
     #: Why, with the number and the limit that decide.
     reason: str
-    #: ``value``, ``limit``: That number and that limit; NaN where the kind of curtain decides.
+    #: That number; NaN where the kind of curtain decides.
     value: float = float("nan")
-    #: See ``value``.
+    #: That limit; NaN where the kind of curtain decides.
     limit: float = float("nan")
 
 

@@ -78,18 +78,17 @@ class AnchorLines:
 class Strengths:
     """What the components carry; :data:`UNJUDGED` where the case says nothing."""
 
-    #: ``upper_cable``, ``lower_cable``, ``sheet``, ``joint``, ``anchor_line``, ``anchor``: Cables, joint, line, holding
-    #: force of the anchor [N]; sheet [N/m].
+    #: Of the upper cable [N].
     upper_cable: Strength = UNJUDGED
-    #: See ``upper_cable``.
+    #: Of the lower cable [N].
     lower_cable: Strength = UNJUDGED
-    #: See ``upper_cable``.
+    #: Of the sheet [N/m].
     sheet: Strength = UNJUDGED
-    #: See ``upper_cable``.
+    #: Of the joint [N].
     joint: Strength = UNJUDGED
-    #: See ``upper_cable``.
+    #: Of the anchor line [N].
     anchor_line: Strength = UNJUDGED
-    #: See ``upper_cable``.
+    #: Holding force of the anchor [N].
     anchor: Strength = UNJUDGED
     #: Share of the buoyancy that must be left [-].
     least_reserve: float = 0.0
@@ -102,9 +101,9 @@ class Strengths:
 class Curtain:
     """One span of a hanging curtain between two supports, its neighbours alike."""
 
-    #: ``span``, ``length``: Distance of the supports and unstretched length of curtain between them [m].
+    #: Distance of the supports [m].
     span: float
-    #: See ``span``.
+    #: Unstretched length of curtain between the supports [m].
     length: float
     #: Heading of the downstream normal of the span [rad].
     normal: float
@@ -116,9 +115,9 @@ class Curtain:
     toe_chain: float
     #: What carries it.
     floats: FloatLine
-    #: ``upper_stiffness``, ``lower_stiffness``: EA of the cables [N]; the lower one 0 where there is none.
+    #: EA of the upper cable [N].
     upper_stiffness: float
-    #: See ``upper_stiffness``.
+    #: EA of the lower cable [N]; 0 where there is none.
     lower_stiffness: float
     #: Coefficient with range and blockage.
     drag: DragLaw
@@ -168,10 +167,9 @@ class ImpactSettings:
 class WaveSettings:
     """How slack and taut cycles are computed."""
 
-    #: ``settled_periods``, ``analysed_periods``: Periods of regular waves that are left out at least (more until
-    #: periods repeat), and those analysed at least.
+    #: Periods of regular waves that are left out at least; more until periods repeat.
     settled_periods: int = 4
-    #: See ``settled_periods``.
+    #: Periods of regular waves that are analysed at least.
     analysed_periods: int = 20
     #: [s]; None: chosen by the program.
     time_step: float | None = None
@@ -198,10 +196,9 @@ class AnchorLoadSettings:
     float_mass: float
     #: Alpha [-].
     orbital_factor: float = 2.0
-    #: ``wire_factor``, ``new_type_factor``: Tension of the wire over that of the rope, and of the new type over the
-    #: conventional one [-].
+    #: Tension of the wire over that of the rope [-].
     wire_factor: float = 0.6
-    #: See ``wire_factor``.
+    #: Tension of the new type over that of the conventional one [-].
     new_type_factor: float = 0.7
     #: H_max over H_1/3 [-].
     height_ratio: float = 1.8
@@ -222,10 +219,9 @@ class AnchorLoadSettings:
 class LimitSettings:
     """The operating-limit table."""
 
-    #: ``speeds``, ``heights``: Surface speeds [m/s] and significant heights [m] of the table; None: chosen by the
-    #: program.
+    #: Surface speeds of the table [m/s]; None: chosen by the program.
     speeds: tuple[float, ...] | None = None
-    #: See ``speeds``.
+    #: Significant heights of the table [m]; None: chosen by the program.
     heights: tuple[float, ...] | None = None
     #: Up to which limits are sought [m/s].
     highest_speed: float = 3.0
@@ -289,13 +285,13 @@ class RecordedSnap:
 
     #: Where it came from.
     file: str
-    #: ``release_time``, ``taut_time``, ``peak_time``, ``plateau_start``: [s]; the release may be NaN.
+    #: Release [s]; may be NaN.
     release_time: float
-    #: See ``release_time``.
+    #: When the cables become taut [s].
     taut_time: float
-    #: See ``release_time``.
+    #: When the tension is largest [s].
     peak_time: float
-    #: See ``release_time``.
+    #: Start of the plateau [s].
     plateau_start: float
     #: Each cable.
     cables: tuple[RecordedCable, ...]

@@ -51,10 +51,9 @@ class NetworkRun:
 
     plan: RunPlan
     history: History
-    #: ``series``, ``frames``: Time series of lines and points; places of all nodes and tensions of all bars at fewer
-    #: times.
+    #: Time series of lines and points.
     series: xr.Dataset
-    #: See ``series``.
+    #: Places of all nodes and tensions of all bars at fewer times.
     frames: xr.Dataset
     #: By line.
     snaps: Mapping[str, SnapRecord]

@@ -140,9 +140,9 @@ class NetPlan:
     rows: int
     #: Columns of knots.
     columns: int
-    #: ``along``, ``across``: Materials of inner and edge bars of the rows, and of the columns.
+    #: Materials of inner and edge bars of the rows.
     along: tuple[BarType, BarType]
-    #: See ``along``.
+    #: Materials of inner and edge bars of the columns.
     across: tuple[BarType, BarType]
     #: Distance of the knots at the start over their unstretched distance [-].
     hanging_ratio: float = 1.0

@@ -146,25 +146,24 @@ def check_memory(panels: MeshPanels) -> None:
 class Solution:
     """Everything at one frequency."""
 
-    #: ``omega``, ``wave_number``: [rad/s], [1/m].
+    #: Angular frequency [rad/s].
     omega: float
-    #: See ``omega``.
+    #: Wave number [1/m].
     wave_number: float
-    #: ``added_mass``, ``damping``: Of all motions on all: force in row i by motion j; shape (m, m).
+    #: Added mass of all motions: force in row i by motion j; shape (m, m).
     added_mass: Array
-    #: See ``added_mass``.
+    #: Damping of all motions: force in row i by motion j; shape (m, m).
     damping: Array
     #: Force of a wave of unit amplitude, phase at the origin of the row; shape (h, m).
     excitation: ComplexArray
-    #: ``radiation``, ``diffraction``: Potential on the panels per unit displacement and per unit wave amplitude,
-    #: incident wave left out; in gaps the sources of the damped surface; shapes (n, m) and (n, h).
+    #: Potential on the panels per unit displacement; in gaps the sources of the damped surface; shape (n, m).
     radiation: ComplexArray
-    #: See ``radiation``.
+    #: Potential on the panels per unit wave amplitude, incident wave left out; in gaps as above; shape (n, h).
     diffraction: ComplexArray
-    #: ``radiated``, ``scattered``: Amplitude A of the far waves A sqrt(2 / (pi k R)) e^{i (k R - pi/4)}, per unit
-    #: displacement and amplitude; shapes (m, directions) and (h, directions).
+    #: Amplitude A of the far waves A sqrt(2 / (pi k R)) e^{i (k R - pi/4)} per unit displacement; shape (m,
+    #: directions).
     radiated: ComplexArray
-    #: See ``radiated``.
+    #: Amplitude A of the same far waves per unit wave amplitude; shape (h, directions).
     scattered: ComplexArray
     #: Largest departure of the excitation from that of the radiation alone, a kind of motion; shape (6,).
     haskind: Array

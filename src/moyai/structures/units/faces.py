@@ -35,13 +35,13 @@ class UnitFace:
     kind: int
     #: On the axis of the unit [m]; shape (2,).
     middle: Array
-    #: ``normal``, ``along``: Outward, and along it, so that (along, normal, up) is right-handed; shape (2,).
+    #: Outward; shape (2,).
     normal: Array
-    #: See ``normal``.
+    #: Along the face, so that (along, normal, up) is right-handed; shape (2,).
     along: Array
-    #: ``low``, ``high``: Where it begins and ends along ``along`` from ``middle`` [m].
+    #: Where it begins along ``along`` from ``middle`` [m].
     low: float
-    #: See ``low``.
+    #: Where it ends along ``along`` from ``middle`` [m].
     high: float
 
     @property
@@ -75,13 +75,13 @@ class UnitFace:
 class Meeting:
     """Two faces that face each other, and the points in plan where a connector on their axes stands."""
 
-    #: ``near``, ``far``: The gap leads from the near one to the far one.
+    #: Face that the gap leads from.
     near: UnitFace
-    #: See ``near``.
+    #: Face that the gap leads to.
     far: UnitFace
-    #: ``start``, ``end``: Points of both [m]; shape (2,).
+    #: Point on the near face [m]; shape (2,).
     start: Array
-    #: See ``start``.
+    #: Point on the far face [m]; shape (2,).
     end: Array
 
     @property

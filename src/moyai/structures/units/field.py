@@ -30,17 +30,17 @@ LINE_POINTS = 41
 class MapPoints:
     """Where the waves are computed."""
 
-    #: ``x``, ``y``: Of the map [m].
+    #: Grid of the map along x [m].
     x: Array
-    #: See ``x``.
+    #: Grid of the map along y [m].
     y: Array
     #: Map (y slowest), named points, line; all of them; shape (p, 2).
     points: Array
     #: Whether a point lies outside of all units; shape (p,).
     wet: NDArray[np.bool_]
-    #: ``named``, ``line``: Where named points and the line stand.
+    #: Where the named points stand in ``points``.
     named: slice
-    #: See ``named``.
+    #: Where the line stands in ``points``.
     line: slice
 
 

@@ -114,15 +114,15 @@ class Connector:
     kind: ConnectorKind
     #: Units that it joins, counted from 0.
     pairs: tuple[tuple[int, int], ...]
-    #: ``x``, ``above_keel``: Where: across from the centre line and above the keel [m]; along, the middle of the gap.
+    #: Across from the centre line [m]; along, it is in the middle of the gap.
     x: float = 0.0
-    #: See ``x``.
+    #: Above the keel [m].
     above_keel: float = 0.0
     #: Axis of a hinge, direction of a curve, in axes of the gap.
     axis: tuple[float, float, float] = (1.0, 0.0, 0.0)
-    #: ``stiffness``, ``damping``: Of a spring [N/m, N, N m], [N s/m, N s, N m s]; shape (6, 6).
+    #: Of a spring [N/m, N, N m]; shape (6, 6).
     stiffness: Array | None = None
-    #: See ``stiffness``.
+    #: Of a spring [N s/m, N s, N m s]; shape (6, 6).
     damping: Array | None = None
     curve: Curve | None = None
     #: Of a curve, per rate of elongation [N s/m].
@@ -147,15 +147,15 @@ class UnitLine:
     fairlead: tuple[float, float, float]
     #: x, y from the middle of the unit, in its axes [m]; z above the bed, of a spring from still water at datum.
     anchor: tuple[float, float, float]
-    #: ``segments``, ``clumps``, ``bed_friction``: As of :class:`moyai.mooring.Line`.
+    #: Segments of :class:`moyai.mooring.Line`.
     segments: tuple[Segment, ...] = ()
-    #: See ``segments``.
+    #: Clumps of :class:`moyai.mooring.Line`.
     clumps: tuple[Clump, ...] = ()
-    #: See ``segments``.
+    #: Friction of the bed as of :class:`moyai.mooring.Line`.
     bed_friction: float = 0.0
-    #: ``stiffness``, ``pretension``: Of a spring [N/m], [N].
+    #: Of a spring [N/m].
     stiffness: float = 0.0
-    #: See ``stiffness``.
+    #: Of a spring [N].
     pretension: float = 0.0
     #: What the segments are made of, for a line in motion; empty where a segment does not give enough.
     bar_types: tuple[BarType, ...] = ()

@@ -70,13 +70,13 @@ class SharpEdges:
     axis: IntArray
     #: 1 where the distance from the edge grows along the axis, else -1; shape (e,).
     sign: Array
-    #: ``place``, ``inward``: Middle of the edge [m] and unit vector from it over the hull; shape (e, 3).
+    #: Middle of the edge [m]; shape (e, 3).
     place: Array
-    #: See ``place``.
+    #: Unit vector from the edge over the hull; shape (e, 3).
     inward: Array
-    #: ``near``, ``far``: Distance of its sides from the edge [m]; shape (e,).
+    #: Distance of the near side of the panel from the edge [m]; shape (e,).
     near: Array
-    #: See ``near``.
+    #: Distance of the far side of the panel from the edge [m]; shape (e,).
     far: Array
     #: Panels through whose centres the powers are drawn; shape (e, 3).
     centres: IntArray

@@ -48,9 +48,9 @@ class RowWaves:
     at: RowAtLevel
     #: [rad/s]; shape (n,).
     omega: Array
-    #: ``added_mass``, ``damping``: Of the waves that the units make; shape (n, m, m).
+    #: Added mass of the waves that the units make; shape (n, m, m).
     added_mass: Array
-    #: See ``added_mass``.
+    #: Damping of the waves that the units make; shape (n, m, m).
     damping: Array
     #: Per metre of amplitude; shape (n, h, m).
     excitation: ComplexArray

@@ -61,9 +61,9 @@ class StudyPages:
 
     result: Result
     axes: tuple[AxisLabels, ...]
-    #: ``status``, ``message``: Of every case, flat.
+    #: Status of every case, flat.
     status: NDArray[Any]
-    #: See ``status``.
+    #: Message of every case, flat.
     message: NDArray[Any]
     governing: tuple[GoverningCase, ...]
     watch: str

@@ -62,12 +62,11 @@ class LinesInMotion:
     nodes: dict[str, NDArray[np.int64]]
     #: Change of the largest tension over it, by variation; shape (lines,).
     sensitivity: dict[str, Array]
-    #: ``network_step``, ``body_step``, ``passes``: Steps of network and body [s], runs of the network per step of the
-    #: body.
+    #: Step of the network [s].
     network_step: float
-    #: See ``network_step``.
+    #: Step of the body [s].
     body_step: float
-    #: See ``network_step``.
+    #: Runs of the network per step of the body.
     passes: float
     nodes_in_all: int
     checks: tuple[IdentityCheck, ...] = ()

@@ -138,11 +138,11 @@ class SeaOfRun:
 
     waves: WaveComponents | None
     current: Current | None
-    #: ``ramp``, ``begin``, ``period``: Ramp, begin of the analysis, typical wave period [s].
+    #: Ramp [s].
     ramp: float
-    #: See ``ramp``.
+    #: Begin of the analysis [s].
     begin: float
-    #: See ``ramp``.
+    #: Typical wave period [s].
     period: float
 
 

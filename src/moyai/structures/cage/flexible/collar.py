@@ -23,9 +23,9 @@ class Pipe:
         For measures that are no pipe.
     """
 
-    #: ``diameter``, ``wall_thickness``: Outer diameter and wall [m].
+    #: Outer diameter [m].
     diameter: float
-    #: See ``diameter``.
+    #: Thickness of the wall [m].
     wall_thickness: float
     #: Of the wall [kg/m3].
     density: float
@@ -33,11 +33,11 @@ class Pipe:
     youngs_modulus: float
     #: [-].
     poisson_ratio: float
-    #: ``drag_normal``, ``drag_tangential``, ``added_mass``: On the outer diameter, on the displaced volume [-].
+    #: Drag coefficient across, on the outer diameter [-].
     drag_normal: float
-    #: See ``drag_normal``.
+    #: Drag coefficient along, on the outer diameter [-].
     drag_tangential: float
-    #: See ``drag_normal``.
+    #: Added-mass coefficient, on the displaced volume [-].
     added_mass: float
     #: What the pipe carries or holds: brackets, walkway, ballast, water inside [kg/m].
     extra_mass_per_length: float = 0.0

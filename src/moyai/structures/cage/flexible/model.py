@@ -60,9 +60,9 @@ class FlexibleCage:
     mesh: CageMesh
     #: [m2/s].
     kinematic_viscosity: float
-    #: ``rows``, ``columns``: Cages along y and along x.
+    #: Cages along y.
     rows: int = 1
-    #: See ``rows``.
+    #: Cages along x.
     columns: int = 1
     #: Whether cages shelter those downstream of them.
     array_wake: bool = True

@@ -55,9 +55,9 @@ class CageParts:
 class LinePart:
     """One rope or line."""
 
-    #: ``name``, ``kind``: Kind: ``anchor``, ``bridle``, ``frame`` or ``buoy``.
+    #: Its name.
     name: str
-    #: See ``name``.
+    #: ``anchor``, ``bridle``, ``frame`` or ``buoy``.
     kind: str
     #: Index into the strands of the network, from the anchor, frame corner or lower end upwards.
     strand: int

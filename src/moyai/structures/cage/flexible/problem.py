@@ -42,10 +42,9 @@ class FlexibleSettings:
     frames: int = 120
     #: Kinematics above still water.
     stretching: Stretching = "wheeler"
-    #: ``slack_share``, ``snap_factor``: A line counts as slack below this share of its mean tension, and a peak after
-    #: slack as a snap above this multiple of it.
+    #: A line counts as slack below this share of its mean tension.
     slack_share: float = 0.05
-    #: See ``slack_share``.
+    #: A peak after slack counts as a snap above this multiple of the mean tension.
     snap_factor: float = 2.0
 
 

@@ -75,9 +75,9 @@ class RigidCageSettings:
     """How a rigid cage is computed."""
 
     analyses: tuple[Analysis, ...] = ("statics", "time", "sensitivity")
-    #: ``periods``, ``settled_periods``: Wave periods that are run, and the last ones that numbers are taken from.
+    #: Wave periods that are run.
     periods: int = 40
-    #: See ``periods``.
+    #: Last wave periods, that numbers are taken from.
     settled_periods: int = 20
     #: Periods over which the waves grow.
     ramp_periods: float = 5.0
@@ -88,10 +88,9 @@ class RigidCageSettings:
     tolerance: float = 1e-6
     #: Step of the fourth-order method [s] that takes the place of the adaptive one.
     fixed_step: float | None = None
-    #: ``stiffness_factors``, ``stiffnesses``: Line stiffnesses of ``sensitivity``: multiples, or values [N/m] that take
-    #: their place.
+    #: Multiples of the line stiffness of ``sensitivity`` [-].
     stiffness_factors: tuple[float, ...] = (1.0 / 3.0, 1.0, 10.0 / 3.0, 10.0)
-    #: See ``stiffness_factors``.
+    #: Line stiffnesses of ``sensitivity`` that take the place of the multiples [N/m].
     stiffnesses: tuple[float, ...] = ()
 
     def __post_init__(self) -> None:

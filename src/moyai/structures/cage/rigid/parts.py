@@ -42,9 +42,9 @@ class Floats:
     diameter: float
     #: Of one sphere [kg].
     mass: float
-    #: ``drag``, ``added_mass``: C_d on the disc of the sphere, C_a on its volume [-].
+    #: C_d on the disc of the sphere [-].
     drag: float
-    #: See ``drag``.
+    #: C_a on the volume of the sphere [-].
     added_mass: float
 
     def __post_init__(self) -> None:
@@ -65,9 +65,9 @@ class Floats:
 class Patches:
     """Small plane pieces of net."""
 
-    #: ``points``, ``normals``: Middles from the middle of the cage [m]; unit normals, either side; shape (n, 3).
+    #: Middles from the middle of the cage [m]; shape (n, 3).
     points: Array
-    #: See ``points``.
+    #: Unit normals, either side; shape (n, 3).
     normals: Array
     #: Outline areas [m2]; shape (n,).
     areas: Array
@@ -197,9 +197,9 @@ class PointWeight:
     mass: float
     #: [m3].
     volume: float
-    #: ``drag``, ``added_mass``: C_d and C_a of a sphere of that volume [-].
+    #: C_d of a sphere of that volume [-].
     drag: float
-    #: See ``drag``.
+    #: C_a of a sphere of that volume [-].
     added_mass: float
 
 

@@ -25,11 +25,11 @@ _LARGEST_MOVE = 0.05
 class RigidCageEquilibrium:
     """A position of rest."""
 
-    #: ``x``, ``z``, ``theta``: Centre of gravity [m] above still water, rotation [rad].
+    #: x of the centre of gravity [m].
     x: float
-    #: See ``x``.
+    #: Centre of gravity above still water [m].
     z: float
-    #: See ``x``.
+    #: Rotation [rad].
     theta: float
     #: At the attachment [N]; shape (lines,).
     tension: Array

@@ -64,9 +64,9 @@ class EventPeak:
 
     #: Larger of the means over the realisations on each mesh that resolves the event [N, N/m].
     value: float
-    #: ``low``, ``high``: Lowest and highest of all runs.
+    #: Lowest of all runs [N, N/m].
     low: float
-    #: See ``low``.
+    #: Highest of all runs [N, N/m].
     high: float
     #: Highest upper end of the one-sided 95 % intervals of the means; the value where there is one realisation.
     judged: float

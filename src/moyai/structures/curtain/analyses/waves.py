@@ -51,10 +51,9 @@ class WaveAnswer:
 
     #: Name under the sea's group ("" is that group itself) and dataset.
     groups: dict[str, xr.Dataset]
-    #: ``maximum_tension``, ``highest_tension``: Of both cables together [N]: the number of the sea, and the upper end
-    #: of its scatter.
+    #: Of both cables together, the number of the sea [N].
     maximum_tension: float
-    #: See ``maximum_tension``.
+    #: Upper end of its scatter [N].
     highest_tension: float
     notices: tuple[Notice, ...]
 

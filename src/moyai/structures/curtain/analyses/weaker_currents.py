@@ -44,11 +44,11 @@ class WeakerLoads:
     unit: LevelCurtain
     #: Where it is from.
     source: str
-    #: ``value``, ``low``, ``high``: What it adds.
+    #: What it adds.
     value: AddedLoads
-    #: See ``value``.
+    #: Lower end of what it adds.
     low: AddedLoads
-    #: See ``value``.
+    #: Upper end of what it adds.
     high: AddedLoads
     #: Whether the load of the sheet is known.
     sheet: bool

@@ -57,34 +57,32 @@ class CurtainSpan:
         For numbers that are not positive, a curtain without slack, or a skirt that does not bulge.
     """
 
-    #: ``span``, ``length``: Distance of the supports and unstretched length of cables and skirt between them [m].
+    #: Distance of the supports [m].
     span: float
-    #: See ``span``.
+    #: Unstretched length of cables and skirt between the supports [m].
     length: float
     #: Of the skirt along itself, unstretched [m].
     skirt_length: float
     #: Straight distance of its edges when the cables come taut [m]; ``skirt_length`` for a flat one.
     chord: float
-    #: ``upper_stiffness``, ``lower_stiffness``: EA [N]; 0 for no lower cable.
+    #: EA of the upper cable [N].
     upper_stiffness: float
-    #: See ``upper_stiffness``.
+    #: EA of the lower cable [N]; 0 for no lower cable.
     lower_stiffness: float
-    #: ``upper_mass``, ``lower_mass``: Per length, of the upper cable with floats and fittings and of the lower one with
-    #: ballast [kg/m].
+    #: Of the upper cable with floats and fittings, per length [kg/m].
     upper_mass: float
-    #: See ``upper_mass``.
+    #: Of the lower cable with ballast, per length [kg/m].
     lower_mass: float
-    #: ``sheet_stiffness``, ``span_stiffness``, ``shear_stiffness``: Of the sheet along its depth, along the span and in
-    #: shear [N/m]; the last two 0 for a sheet that is slack along the span (a ten-thousandth of the first then keeps
-    #: its columns in order).
+    #: Of the sheet along its depth [N/m].
     sheet_stiffness: float
     #: Per area [kg/m2].
     sheet_mass: float
     #: Displaced by lower cable and ballast per length [m2].
     lower_volume: float = 0.0
-    #: See ``sheet_stiffness``.
+    #: Of the sheet along the span [N/m]; 0 for a sheet that is slack along the span (a ten-thousandth of
+    #: ``sheet_stiffness`` then keeps its columns in order).
     span_stiffness: float = 0.0
-    #: See ``sheet_stiffness``.
+    #: Of the sheet in shear [N/m]; 0 for the same sheet.
     shear_stiffness: float = 0.0
     #: Per area [m].
     sheet_volume: float = 0.0

@@ -29,12 +29,11 @@ class PeakUncertainty:
 
     #: Of the run itself.
     peak: float
-    #: ``half_step``, ``half_mesh``, ``double_viscosity``: With half the step, half as many cells both ways, twice the
-    #: viscosity of cables and skirt.
+    #: With half the step.
     half_step: float = math.nan
-    #: See ``half_step``.
+    #: With half as many cells both ways.
     half_mesh: float = math.nan
-    #: See ``half_step``.
+    #: With twice the viscosity of cables and skirt.
     double_viscosity: float = math.nan
     #: In waves: with sections of added mass that keep the normals of the just-taut span.
     held_normals: float = math.nan

@@ -37,9 +37,9 @@ class DynamicSettings:
     sheet_mass: float | None = None
     #: Displaced volume per area [m]; NaN: from mass and weight in water.
     sheet_volume: float = math.nan
-    #: ``span_stiffness``, ``shear_stiffness``: Of the sheet along the span and in shear [N/m].
+    #: Of the sheet along the span [N/m].
     span_stiffness: float = 0.0
-    #: See ``span_stiffness``.
+    #: Of the sheet in shear [N/m].
     shear_stiffness: float = 0.0
     #: Of lower cable and ballast [kg/m3].
     ballast_density: float = 7850.0
@@ -49,10 +49,9 @@ class DynamicSettings:
     support_mass: float | None = None
     #: Speed of a drifting start over the span.
     profile: Literal["uniform", "sag"] = "uniform"
-    #: ``settled_periods``, ``analysed_periods``: Periods left out after the ramp of one period, and periods of regular
-    #: waves that count.
+    #: Periods left out after the ramp of one period.
     settled_periods: int = 6
-    #: See ``settled_periods``.
+    #: Periods of regular waves that count.
     analysed_periods: int = 10
     #: Peak periods that count around the highest crest of an irregular sea.
     wave_count: int = 8
@@ -64,10 +63,9 @@ class DynamicSettings:
     start: Literal["auto", "at_rest", "drifting", "released"] = "auto"
     #: Whether runs with half the step, a mesh of half as many cells and twice the viscosity follow.
     sensitivity: bool = True
-    #: ``slack_level``, ``threshold``: Of the snap statistics [N]; None: 1 % of the highest tension, twice the mean of
-    #: the taut times.
+    #: Slack level of the snap statistics [N]; None: 1 % of the highest tension.
     slack_level: float | None = None
-    #: See ``slack_level``.
+    #: Threshold of the snap statistics [N]; None: twice the mean of the taut times.
     threshold: float | None = None
     #: Whether peaks are taken from the span where it is not asked for and an upright plate only bounds them.
     by_default: bool = True

@@ -19,9 +19,9 @@ from moyai.structures.curtain.statics.closed_forms import arc_half_angle
 class SectionMesh:
     """Nodes of a skirt's section and what they feel of each other through the water."""
 
-    #: ``x``, ``z``: Places from the upper edge down, downstream and up [m]; shape (k,).
+    #: Downstream, from the upper edge down [m]; shape (k,).
     x: Array
-    #: See ``x``.
+    #: Up, from the upper edge down [m]; shape (k,).
     z: Array
     #: Per metre of span: normal (downstream) unknowns first, then vertical ones [kg/m]; shape (2 k, 2 k).
     added_mass: Array

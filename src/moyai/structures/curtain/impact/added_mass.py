@@ -23,11 +23,11 @@ _TERMS = 20
 class PlateMass:
     """Added mass of a flat skirt per metre of span and its parts by linear edge shapes [kg/m]."""
 
-    #: ``upper``, ``cross``, ``lower``: M_uu, M_ul, M_ll: force on an edge per acceleration of an edge.
+    #: M_uu: force on the upper edge per acceleration of the upper edge.
     upper: float
-    #: See ``upper``.
+    #: M_ul: force on one edge per acceleration of the other.
     cross: float
-    #: See ``upper``.
+    #: M_ll: force on the lower edge per acceleration of the lower edge.
     lower: float
 
     @property

@@ -51,9 +51,9 @@ class Impact:
     length: float
     #: Depth d of the skirt as a flat plate [m].
     draught: float
-    #: ``upper_stiffness``, ``lower_stiffness``: EA of the upper and the lower cable [N]; model A takes their sum.
+    #: EA of the upper cable [N]; model A takes the sum of both.
     upper_stiffness: float
-    #: See ``upper_stiffness``.
+    #: EA of the lower cable [N].
     lower_stiffness: float
     #: Speed U0 of the curtain when it becomes taut [m/s].
     speed: float
@@ -326,12 +326,11 @@ def edge_impact(
 class ImpactNumbers:
     """Dimensionless numbers of an impact, equation (7) of the paper [eq:impact-numbers]."""
 
-    #: ``tension_coefficient``, ``cauchy_number``, ``froude_number``: C_T = T/(rho U^2 B d/2), C_E = sqrt(EA/rho)/(h
-    #: sqrt(gh)), Fr = U/sqrt(gh).
+    #: C_T = T/(rho U^2 B d/2) [-].
     tension_coefficient: float
-    #: See ``tension_coefficient``.
+    #: C_E = sqrt(EA/rho)/(h sqrt(gh)) [-].
     cauchy_number: float
-    #: See ``tension_coefficient``.
+    #: Fr = U/sqrt(gh) [-].
     froude_number: float
 
 

@@ -41,10 +41,9 @@ class ModelTension:
     time: float
     #: What the model takes for granted.
     assumption: str
-    #: ``upper_tension``, ``lower_tension``: Largest tension of each cable [N]; NaN where the model does not give them
-    #: apart.
+    #: Largest tension of the upper cable [N]; NaN where the model does not give it apart.
     upper_tension: float = math.nan
-    #: See ``upper_tension``.
+    #: Largest tension of the lower cable [N]; NaN where the model does not give it apart.
     lower_tension: float = math.nan
     #: Largest tension of the skirt [N/m]; NaN where the model has none.
     skirt_tension: float = math.nan

@@ -34,10 +34,9 @@ class CableContact:
     #: Whether it is the first on its side since the other side was taut or the water turned towards this one (about its
     #: mean speed); later ones are bounces.
     first: bool
-    #: ``peak_time``, ``end``: When the tension is largest, and when the cable is slack again [s]; NaN where the series
-    #: stops before.
+    #: When the tension is largest [s]; NaN where the series stops before.
     peak_time: float
-    #: See ``peak_time``.
+    #: When the cable is slack again [s]; NaN where the series stops before.
     end: float
 
     @property

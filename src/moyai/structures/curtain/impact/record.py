@@ -23,13 +23,13 @@ class ModelError:
 
     #: Name.
     model: str
-    #: ``tension``, ``observed_tension``: Impact tension of the model and of the record [N].
+    #: Impact tension of the model [N].
     tension: float
-    #: See ``tension``.
+    #: Impact tension of the record [N].
     observed_tension: float
-    #: ``time``, ``observed_time``: Rise times [s]; NaN where there is none.
+    #: Rise time of the model [s]; NaN where there is none.
     time: float
-    #: See ``time``.
+    #: Rise time of the record [s]; NaN where there is none.
     observed_time: float
 
     @property

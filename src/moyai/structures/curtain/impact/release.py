@@ -18,10 +18,9 @@ from moyai.structures.curtain.statics.closed_forms import solve_cable
 class SlackPhase:
     """Drift of a slack curtain from its release until it is taut."""
 
-    #: ``position``, ``speed_at_release``: Where mid-span was let go [m], downstream of the line between the supports,
-    #: and how fast [m/s].
+    #: Where mid-span was let go, downstream of the line between the supports [m].
     position: float
-    #: See ``position``.
+    #: How fast mid-span was let go [m/s].
     speed_at_release: float
     #: From release to the taut instant [s].
     duration: float
@@ -136,15 +135,15 @@ class Snap:
 
     #: Series with drag.
     motion: SlackTautMotion
-    #: ``taut_time``, ``peak_time``: When the cable becomes taut and when its tension is largest [s].
+    #: When the cable becomes taut [s].
     taut_time: float
-    #: See ``taut_time``.
+    #: When the tension is largest [s].
     peak_time: float
     #: At the taut instant [m/s].
     start_speed: float
-    #: ``peak_tension``, ``plateau_tension``: Largest tension and that of the steady current [N], sums of both cables.
+    #: Largest tension, sum of both cables [N].
     peak_tension: float
-    #: See ``peak_tension``.
+    #: Tension of the steady current, sum of both cables [N].
     plateau_tension: float
     #: A warning where the series ends before the plateau.
     notices: tuple[Notice, ...]

@@ -49,9 +49,9 @@ class SettledCycles:
     kind: Kind
     #: Periods after which it repeats; 0 where it does not.
     multiple: int
-    #: ``first``, ``count``: Periods left out, and periods that count.
+    #: Periods left out.
     first: int
-    #: See ``first``.
+    #: Periods that count.
     count: int
     #: Largest tension of each period that counts, both cables together [N].
     peaks: Array

@@ -66,16 +66,15 @@ class Strength:
 class Requirements:
     """Strengths of the components and what the curtain must keep."""
 
-    #: ``upper_cable``, ``lower_cable``, ``sheet``, ``anchor_line``, ``anchor``: Cables [N], sheet [N/m], line [N],
-    #: horizontal holding force of the anchor [N].
+    #: Of the upper cable [N].
     upper_cable: Strength
-    #: See ``upper_cable``.
+    #: Of the lower cable [N].
     lower_cable: Strength
-    #: See ``upper_cable``.
+    #: Of the sheet [N/m].
     sheet: Strength
-    #: See ``upper_cable``.
+    #: Of the anchor line [N].
     anchor_line: Strength
-    #: See ``upper_cable``.
+    #: Horizontal holding force of the anchor [N].
     anchor: Strength
     #: Share of the buoyancy that must be left [-].
     least_reserve: float
@@ -185,9 +184,9 @@ class CurtainSite:
     water: Water
     #: Profile of a given surface speed [m/s].
     current: Callable[[float], CurrentProfile]
-    #: ``flow_heading``, ``chord_normal``: Of the flow and of the downstream normal of the span [rad].
+    #: Heading of the flow [rad].
     flow_heading: float
-    #: See ``flow_heading``.
+    #: Heading of the downstream normal of the span [rad].
     chord_normal: float
     #: Share of the held flow that goes under the toe [-].
     passing_fraction: float

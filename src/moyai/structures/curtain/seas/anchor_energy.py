@@ -129,10 +129,9 @@ class EnergyCalibration:
     standard_error: float
     #: Bounds of 95 % [kg N/m], Student's t on the root of the product.
     interval: tuple[float, float]
-    #: ``calculated``, ``observed``: Amplitudes sqrt(T_e (T_e + 2 T)) of the rope [N], which is T_e where there is no
-    #: pretension.
+    #: Calculated amplitudes sqrt(T_e (T_e + 2 T)) of the rope, T_e where there is no pretension [N].
     calculated: Array
-    #: See ``calculated``.
+    #: Observed amplitudes of the rope [N].
     observed: Array
 
     @property

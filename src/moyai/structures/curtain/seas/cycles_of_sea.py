@@ -17,11 +17,11 @@ if TYPE_CHECKING:
 class SeaCycles:
     """Slack and taut cycles of a sea, sums of both cables [N]."""
 
-    #: ``low``, ``top``, ``high``: The number of the sea, its lower waves counted, and the ends of its scatter.
+    #: Lower end of its scatter.
     low: float
-    #: See ``low``.
+    #: The number of the sea, its lower waves counted.
     top: float
-    #: See ``low``.
+    #: Upper end of its scatter.
     high: float
     #: From the number to the end of its interval.
     reach: float

@@ -202,9 +202,9 @@ class StepError:
 
     #: Of the number of snaps; slow contacts about the limit come and go.
     count_change: int
-    #: ``largest_change``, ``mean_change``: Relative changes of the largest tension and of the mean of all snaps.
+    #: Relative change of the largest tension [-].
     largest_change: float
-    #: See ``largest_change``.
+    #: Relative change of the mean of all snaps [-].
     mean_change: float
     #: When the runs part: first contact that is off by more than half of its rise [s]; infinite where they do not.
     parted: float

@@ -218,9 +218,9 @@ def arc_tension_ratio(chord_ratio: ArrayLike, stiffness_ratio: ArrayLike = np.in
 class CableSolution:
     """A cable at rest under the load sigma cos^2 of its slope; arrays of one shape."""
 
-    #: ``span``, ``length``: Distance of the supports B and unstretched length l [m].
+    #: Distance of the supports B [m].
     span: Array
-    #: See ``span``.
+    #: Unstretched length l [m].
     length: Array
     #: sigma [N/m], load per length where the cable lies across the current.
     line_load: Array
@@ -311,9 +311,9 @@ def solve_cable(
 class SkirtArc:
     """A skirt between two held edges under uniform normal pressure: an arc of a circle; arrays of one shape."""
 
-    #: ``chord``, ``length``: Straight distance of the edges d0 and unstretched length d [m].
+    #: Straight distance of the edges d0 [m].
     chord: Array
-    #: See ``chord``.
+    #: Unstretched length d [m].
     length: Array
     #: sigma_s [N/m2].
     pressure: Array

@@ -21,10 +21,9 @@ class DragLaw:
 
     #: What the law is.
     name: str
-    #: ``blockage``, ``coefficients``: Points of C_D [-] over the blockage d/h [-], increasing; linear between, constant
-    #: outside.
+    #: Blockages d/h of the points, increasing [-]; C_D is linear between them and constant outside.
     blockage: tuple[float, ...]
-    #: See ``blockage``.
+    #: C_D at these blockages [-].
     coefficients: tuple[float, ...]
     #: Multipliers (low, high) of the coefficient that bound what is known, for instance (0.8, 1.4).
     range: tuple[float, float]

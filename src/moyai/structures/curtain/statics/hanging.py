@@ -44,18 +44,17 @@ class FloatLine:
 class HangingCurtain:
     """One span of a curtain between two anchored supports, its neighbours alike."""
 
-    #: ``span``, ``length``: Distance of the supports and unstretched length of curtain between them [m].
+    #: Distance of the supports [m].
     span: float
-    #: See ``span``.
+    #: Unstretched length of curtain between the supports [m].
     length: float
     #: Section.
     skirt: Skirt
     #: What carries it.
     floats: FloatLine
-    #: ``upper_stiffness``, ``lower_stiffness``: EA of the cables at top and toe [N]; the lower one counts only for a
-    #: held toe.
+    #: EA of the cables at the top [N].
     upper_stiffness: float
-    #: See ``upper_stiffness``.
+    #: EA of the cables at the toe [N]; counts only for a held toe.
     lower_stiffness: float
     #: Whether a lower cable as long as the upper one keeps the toe under the top.
     toe: Literal["free", "held"]

@@ -24,10 +24,9 @@ class SectionLaw:
 
     #: ``catenary``, ``circular``, ``rigid`` or ``elastic``.
     name: str
-    #: ``effective_depth``, ``flare``: Vertical reach and downstream reach of the toe [m]; NaN where the law has no
-    #: solution.
+    #: Vertical reach of the toe [m]; NaN where the law has no solution.
     effective_depth: float
-    #: See ``effective_depth``.
+    #: Downstream reach of the toe [m]; NaN where the law has no solution.
     flare: float
     #: Force per span along the skirt at its top [N/m].
     top_tension: float
@@ -116,9 +115,9 @@ class PlanLaw:
     tension: float
     #: Deflection at mid-span [m].
     sag: float
-    #: ``downstream_end_force``, ``inward_end_force``: Force on each support, downstream and along the span [N].
+    #: Force on each support, downstream [N].
     downstream_end_force: float
-    #: See ``downstream_end_force``.
+    #: Force on each support along the span [N].
     inward_end_force: float
 
 

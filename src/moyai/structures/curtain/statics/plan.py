@@ -41,10 +41,10 @@ class PlanLoad:
     across: float
     #: Angle of the flow from the normal of the line between the supports, positive towards the second support [rad].
     flow_angle: float
-    #: ``angle``, ``ratio``: Points of c in p = P c cos^2 over the local angle from across the flow [rad]; a smooth
-    #: curve between, constant outside. A single point means a constant c.
+    #: Local angles from across the flow of the points of c in p = P c cos^2 [rad]; a smooth curve between, constant
+    #: outside.
     angle: Array
-    #: See ``angle``.
+    #: c at these angles [-]; a single point means a constant c.
     ratio: Array
 
     def __post_init__(self) -> None:
@@ -164,9 +164,9 @@ class PlanShape:
     length: float
     #: EA of all cables together [N].
     axial_stiffness: float
-    #: ``y``, ``x``: Along the span from the first support and downstream of the line between the supports [m].
+    #: Along the span from the first support [m].
     y: Array
-    #: See ``y``.
+    #: Downstream of the line between the supports [m].
     x: Array
     #: Stretched length from the first support [m].
     arc: Array

@@ -77,24 +77,23 @@ class SectionShape:
     skirt: Skirt
     #: Unstretched length of skirt from the top [m].
     arc: Array
-    #: ``x``, ``z``: Downstream of the top and height above still water [m].
+    #: Downstream of the top [m].
     x: Array
-    #: See ``x``.
+    #: Height above still water [m].
     z: Array
     #: Along the skirt per span [N/m].
     tension: Array
     #: Of the skirt from the vertical [rad], positive where it leads downstream.
     angle: Array
-    #: ``top_load``, ``toe_hold``: Horizontal force per span of the current on the top and on the lower cable [N/m]; the
-    #: latter 0 for a free toe.
+    #: Horizontal force per span of the current on the top [N/m].
     top_load: float
-    #: See ``top_load``.
+    #: Horizontal force per span of the current on the lower cable [N/m]; 0 for a free toe.
     toe_hold: float
     #: Vertical force per span by which the skirt pulls its floats down [N/m].
     top_pull: float
-    #: ``drag_coefficient``, ``blockage``: In use [-]; no blockage in infinite depth.
+    #: Drag coefficient in use [-].
     drag_coefficient: float
-    #: See ``drag_coefficient``.
+    #: Blockage in use [-]; none in infinite depth.
     blockage: float
     #: Miss of the top over the length [-].
     residual: float
@@ -136,9 +135,9 @@ class SectionShape:
 class Pressure:
     """rho/2 u|u| on an even grid of heights, for the kernels."""
 
-    #: ``low``, ``step``: Lowest height of the grid and its step [m].
+    #: Lowest height of the grid [m].
     low: float
-    #: See ``low``.
+    #: Step of the grid [m].
     step: float
     #: [N/m2].
     values: Array

@@ -108,9 +108,9 @@ class SteadyLoad:
     governing: SteadyState
     #: One thing varied in each.
     causes: tuple[SteadyState, ...]
-    #: ``lowest``, ``highest``: Everything together that lowers, and that raises, the load.
+    #: Everything together that lowers the load.
     lowest: SteadyState
-    #: See ``lowest``.
+    #: Everything together that raises the load.
     highest: SteadyState
     #: Largest load per length that loads normal to the sheet can put on a skirt whose toe swings [N/m]; infinite where
     #: the toe is held.

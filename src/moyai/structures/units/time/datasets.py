@@ -151,9 +151,10 @@ class KeptRun:
     message: str
     #: As of :class:`moyai.structures.units.time.seas.SeaRun`.
     contacts: bool
-    #: ``change``, ``growth``: As of the same.
+    #: Change of a regular motion by when it repeats, over its size, as of
+    #: :class:`moyai.structures.units.time.seas.SeaRun`.
     change: float
-    #: See ``change``.
+    #: Growth of that change a period, 0 where it falls, as of the same.
     growth: float
     #: Numbers of each part of a motion that does not repeat; none of others.
     parts: tuple[Numbers, ...]

@@ -45,16 +45,16 @@ class Carried:
 
     #: Shape (n,).
     time: Array
-    #: ``position``, ``velocity``: Of all motions; shape (n, m).
+    #: Position of all motions; shape (n, m).
     position: Array
-    #: See ``position``.
+    #: Velocity of all motions; shape (n, m).
     velocity: Array
     #: Shape (n, lines).
     tension: Array
     waves: WaveComponents
-    #: ``begin``, ``period``: Of the analysis, of the peak [s].
+    #: Begin of the analysis [s].
     begin: float
-    #: See ``begin``.
+    #: Period of the peak [s].
     period: float
 
 

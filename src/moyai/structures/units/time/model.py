@@ -266,11 +266,11 @@ class RowRun:
     time: Array
     #: Shape (n, m).
     load: Array
-    #: ``reduced``, ``velocity``, ``acceleration``: Of the motions that the constraints leave; shape (n, r).
+    #: Motions that the constraints leave; shape (n, r).
     reduced: Array
-    #: See ``reduced``.
+    #: Their velocity; shape (n, r).
     velocity: Array
-    #: See ``reduced``.
+    #: Their acceleration; shape (n, r).
     acceleration: Array
     #: Force of the memory on the constraints; shape (n, c).
     held_memory: Array
