@@ -48,6 +48,14 @@ class Number:
         }
 
 
+def force_unit(force: float) -> str:
+    """Return the unit in which a force [N] is shown: N, kN or MN."""
+    size = abs(force)
+    if size >= 1e6:
+        return "MN"
+    return "kN" if size >= 1e3 else "N"
+
+
 def case_html(title: str, place: str, warnings: Sequence[Fault], numbers: Sequence[Number], text: str) -> str:
     """Return a case as a piece of HTML for a notebook; nothing is loaded.
 

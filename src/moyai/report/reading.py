@@ -76,6 +76,13 @@ class Group:
         """Attributes of the group, empty where absent."""
         return {} if self.node is None else {str(key): value for key, value in self.node.attrs.items()}
 
+    def number(self, name: str) -> float:
+        """Return a number among the attributes, NaN where it is absent or no number."""
+        try:
+            return float(self.attributes[name])
+        except (KeyError, TypeError, ValueError):
+            return math.nan
+
     def child(self, path: str) -> Group:
         """Return a group below this one."""
         node: Any = self.node

@@ -37,3 +37,20 @@ class Environment:
         if math.isinf(self.water.depth):
             return self.water
         return self.water.with_depth(self.water.depth + level)
+
+    def mean_current(self, water: Water) -> tuple[float, float]:
+        """Return the current along x and y averaged over the depth of ``water``, on which waves ride [m/s].
+
+        In infinite depth the mean over the upper part that waves of the longest period reach cannot be known
+        beforehand; the surface value is taken.
+
+        Parameters
+        ----------
+        water : Water
+            Of the water level.
+        """
+        if self.current is None:
+            return 0.0, 0.0
+        current = self.current.in_depth(water.depth)
+        found = current.velocity(0.0) if math.isinf(water.depth) else current.depth_mean(-water.depth, 0.0)
+        return float(found[0]), float(found[1])

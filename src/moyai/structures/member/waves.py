@@ -66,22 +66,9 @@ def current_alone(problem: MemberProblem, water: Water) -> MemberWave:
     )  # fmt: skip
 
 
-def mean_current(problem: MemberProblem, water: Water) -> tuple[float, float]:
-    """Return the current averaged over the depth, on which the waves ride [m/s].
-
-    In infinite depth the mean over the upper part that waves of the longest period reach cannot be known beforehand;
-    the surface value is taken.
-    """
-    if problem.environment.current is None:
-        return 0.0, 0.0
-    current = problem.environment.current.in_depth(water.depth)
-    found = current.velocity(0.0) if math.isinf(water.depth) else current.depth_mean(-water.depth, 0.0)
-    return float(found[0]), float(found[1])
-
-
 def waves_of(problem: MemberProblem, sea: MemberWaves | IrregularSea, water: Water) -> tuple[MemberWave, ...]:
     """Return every wave of a sea state at a water depth."""
-    current = mean_current(problem, water)
+    current = problem.environment.mean_current(water)
     profile = None if problem.environment.current is None else problem.environment.current.in_depth(water.depth)
     if isinstance(sea, IrregularSea):
         period = float(sea.spectrum.peak_period)

@@ -78,15 +78,6 @@ def steady_flow(problem: NetworkProblem, water: Water) -> Flow:
     return Flow() if current is None else Flow(current=_CurrentAtAnyHeight(current.in_depth(water.depth), water.depth))
 
 
-def mean_current(problem: NetworkProblem, water: Water) -> tuple[float, float]:
-    """Return the current averaged over the depth, on which waves ride [m/s]; that of the surface in infinite depth."""
-    if problem.environment.current is None:
-        return 0.0, 0.0
-    current = problem.environment.current.in_depth(water.depth)
-    found = current.velocity(0.0) if math.isinf(water.depth) else current.depth_mean(-water.depth, 0.0)
-    return float(found[0]), float(found[1])
-
-
 def run_plans(problem: NetworkProblem, water: Water) -> tuple[RunPlan, ...]:
     """Return every run of a water level.
 
@@ -170,7 +161,7 @@ def _output_step(problem: NetworkProblem, period: float, duration: float) -> flo
 
 
 def _regular(problem: NetworkProblem, sea: RegularSea, period: float, name: str, water: Water) -> RunPlan:
-    current = mean_current(problem, water)
+    current = problem.environment.mean_current(water)
     along = current[0] * math.cos(sea.heading) + current[1] * math.sin(sea.heading)
     waves, steep = regular_wave(sea.theory, sea.height, period, sea.heading, water, along)
     duration = problem.settings.duration or PERIODS * period
@@ -195,7 +186,7 @@ def theory_limit(problem: NetworkProblem, plan: RunPlan) -> list[Notice]:
 
 def _irregular(problem: NetworkProblem, sea: IrregularSea, water: Water) -> RunPlan:
     period = float(sea.spectrum.peak_period)
-    waves = components_of_run(sea, water, mean_current(problem, water), COMPONENTS)
+    waves = components_of_run(sea, water, problem.environment.mean_current(water), COMPONENTS)
     # two rows in the shortest wave that counts would miss crests
     step = problem.settings.output_step or _output_step(problem, 0.5 * period, sea.duration)
     return RunPlan(
@@ -209,12 +200,12 @@ def flow_of_seed(problem: NetworkProblem, plan: RunPlan, water: Water, seed: int
     sea = next(sea for sea in problem.environment.sea_states if sea.name == plan.name)
     if not isinstance(sea, IrregularSea):
         raise TypeError(f"sea {plan.name!r} has no seed")
-    waves = components_of_run(replace(sea, seed=seed), water, mean_current(problem, water), COMPONENTS)
+    waves = components_of_run(replace(sea, seed=seed), water, problem.environment.mean_current(water), COMPONENTS)
     return replace(plan.flow, waves=waves)
 
 
 def _components(problem: NetworkProblem, sea: ComponentSea, water: Water) -> RunPlan:
-    current = mean_current(problem, water)
+    current = problem.environment.mean_current(water)
     along = current[0] * np.cos(sea.headings) + current[1] * np.sin(sea.headings)
     number = np.array(
         [

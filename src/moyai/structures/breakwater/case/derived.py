@@ -4,10 +4,9 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator
-from typing import Any
 
 from moyai.case.builder import build
-from moyai.case.derived import Number
+from moyai.case.derived import Number, force_unit
 from moyai.case.reader import Case
 from moyai.sea.dispersion import wave_number
 from moyai.sea.water import Water
@@ -40,7 +39,7 @@ def _unit_numbers(level: str, unit: FloatingUnit, problem: BreakwaterProblem) ->
     displaced = unit.statics.displaced_mass
     yield Number("Unit at rest", level, "displaced mass", displaced, "t" if displaced > 2000.0 else "kg", 5)
     if unit.lines:
-        yield Number("Unit at rest", level, "downward pull of the lines", unit.line_pull, _force_unit(unit.line_pull))
+        yield Number("Unit at rest", level, "downward pull of the lines", unit.line_pull, force_unit(unit.line_pull))
     if breakwater.mass is not None and breakwater.draught is not None:
         yield Number("Unit at rest", level, "imbalance of mass and draught", 0.01 * unit.imbalance, "%", 3)
     if abs(unit.heel) > 1e-9:
@@ -69,7 +68,7 @@ def _line_numbers(level: str, unit: FloatingUnit) -> Iterator[Number]:
     for line in unit.lines:
         state = line.solve(np.array([line.fairlead]), unit.water.depth + unit.centre[1])
         tension = float(state.tension_fairlead[0])
-        yield Number("Lines at rest", level, f"{line.name}: tension at the fairlead", tension, _force_unit(tension))
+        yield Number("Lines at rest", level, f"{line.name}: tension at the fairlead", tension, force_unit(tension))
         if math.isfinite(line.breaking_load):
             yield Number(
                 "Lines at rest", level, f"{line.name}: share of the breaking load", tension / line.breaking_load, "%", 3
@@ -97,10 +96,3 @@ def _wave_numbers(level: str, water: Water, problem: BreakwaterProblem) -> Itera
                 yield Number(group, level, f"relative depth kh, {case}", number * water.depth)
             yield Number(group, level, f"wavelength over beam, {case}", length / beam)
             yield Number(group, level, f"steepness H/L, {case}", height / length, "", 3)
-
-
-def _force_unit(force: float) -> str:
-    size: Any = abs(force)
-    if size >= 1e6:
-        return "MN"
-    return "kN" if size >= 1e3 else "N"

@@ -4,10 +4,9 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator
-from typing import Any
 
 from moyai.case.builder import build
-from moyai.case.derived import Number
+from moyai.case.derived import Number, force_unit
 from moyai.case.reader import Case
 from moyai.core.errors import InputError
 from moyai.sea.breaking import breaking_limit
@@ -72,7 +71,7 @@ def _statics_numbers(unit: LevelCurtain) -> Iterator[Number]:
     load = pressure * unit.curtain.skirt.length / unit.curtain.skirt.toe_load
     yield Number(group, level, "load ratio qL/W", load)
     yield Number(group, level, "effective depth", statics.section.effective_depth, "m")
-    yield Number(group, level, "tension of all cables", statics.plan.tension, _force_unit(statics.plan.tension))
+    yield Number(group, level, "tension of all cables", statics.plan.tension, force_unit(statics.plan.tension))
     yield Number(group, level, "float reserve", statics.reserve_ratio, "%", 3)
 
 
@@ -86,7 +85,7 @@ def _impact_numbers(unit: LevelCurtain, problem: CurtainProblem) -> Iterator[Num
     if math.isfinite(water.depth):
         yield Number(group, level, "Cauchy number C_E", impact_numbers(impact, peak.tension).cauchy_number)
     yield Number(group, level, "added mass 2 rho d^2/pi", impact.deep_mass, "kg/m")
-    yield Number(group, level, "tension by model A", peak.tension, _force_unit(peak.tension))
+    yield Number(group, level, "tension by model A", peak.tension, force_unit(peak.tension))
     yield Number(group, level, "rise of the tension t_peak", peak.time, "s")
     yield Number(group, level, "t_peak/sqrt(d/g)", peak.time / math.sqrt(impact.draught / water.gravity), "", 3)
     if settings.time_step is not None:
@@ -115,10 +114,3 @@ def _wave_numbers(unit: LevelCurtain, problem: CurtainProblem) -> Iterator[Numbe
             except InputError:
                 continue
             yield Number(group, level, "squared velocity under the crest", square, "m2/s2")
-
-
-def _force_unit(force: float) -> str:
-    size: Any = abs(force)
-    if size >= 1e6:
-        return "MN"
-    return "kN" if size >= 1e3 else "N"

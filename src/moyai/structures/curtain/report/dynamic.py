@@ -26,7 +26,7 @@ from moyai.report.document import (
 from moyai.report.formatting import format_quantity
 from moyai.report.reading import Group, common_scale
 from moyai.report.scene_3d import Faces, Marker, Scene3D, Trace, Waves3D, frame_rows
-from moyai.structures.curtain.report.reading import CurtainLevel, attribute, key
+from moyai.structures.curtain.report.reading import CurtainLevel, key
 
 _BINS, _PERIODS_SHOWN, _WHOLE = 900, 4.0, 6.0
 #: Columns of the table of the uncertainty of peaks: heading, name in the table of runs, name of each line in its run.
@@ -183,7 +183,7 @@ def snap_table(level: CurtainLevel, run: Group) -> Table | None:
         key(level, run.name, "dynamic-snaps"),
         "Slack and snaps",
         (Column("Line", list(names)), *in_one_unit(columns)),
-        f"Counted from t = {attribute(run, 'counted_from'):.3g} s, cables at their support; a snap exceeds the "
+        f"Counted from t = {run.number('counted_from'):.3g} s, cables at their support; a snap exceeds the "
         "threshold, its rise goes from a tenth to nine tenths.",
     )
 
@@ -196,9 +196,9 @@ def tension_figure(level: CurtainLevel, run: Group) -> Figure | None:
     lines = {name: run.real("line_tension_peak_since_row", "time", line=name) for name in run.labels("line")}
     known = {name: values for name, values in lines.items() if values is not None}
     factor, unit = common_scale("N", both, *known.values())
-    late = np.nan_to_num(both) * (time >= attribute(run, "counted_from") - 1e-9)
+    late = np.nan_to_num(both) * (time >= run.number("counted_from") - 1e-9)
     peak = int(np.argmax(late if late.any() else np.nan_to_num(both)))
-    first, last = window_around(time, float(time[peak]), _length(time, attribute(run, "period")))
+    first, last = window_around(time, float(time[peak]), _length(time, run.number("period")))
     place = run.real("mid_span_x", "time")
     toe = run.real("mid_toe_x", "time")
     keep = focus_indices(np.column_stack([both, *known.values()]), (first, last), _BINS)
@@ -268,8 +268,8 @@ def span_animation(level: CurtainLevel, run: Group) -> Animation | None:
     bars, triangles = frames.array("bar_nodes", "bar", "end"), frames.array("triangle_nodes", "triangle", "corner")
     if time is None or position is None or tension is None or bars is None or triangles is None or time.size < 2:
         return None
-    moment = attribute(frames, "peak_time")
-    length = float(np.ptp(time)) if np.ptp(time) < _WHOLE else _length(time, attribute(run, "period"))
+    moment = frames.number("peak_time")
+    length = float(np.ptp(time)) if np.ptp(time) < _WHOLE else _length(time, run.number("period"))
     begin = min(max(moment - 0.6 * length, float(time[0])), float(time[-1]) - length)
     window = (begin, begin + length)
     rows = frame_rows(time, nodes=position.shape[1], bars=len(bars), window=window, moments=(moment,))
@@ -314,7 +314,7 @@ def _waves(frames: Group) -> Waves3D | None:
     ]
     if any(part is None for part in parts):
         return None
-    ramp = attribute(frames, "wave_ramp")
+    ramp = frames.number("wave_ramp")
     amplitude, omega, number, heading, phase = (np.asarray(part, dtype=np.float64) for part in parts)
     return Waves3D(amplitude, omega, number, heading, phase, ramp if math.isfinite(ramp) else 0.0)
 

@@ -12,7 +12,7 @@ from moyai.report.decimate import envelope_indices
 from moyai.report.document import Abscissa, Figure, Mark, Panel, Series
 from moyai.report.formatting import format_quantity, largest_magnitude
 from moyai.report.reading import Group, common_scale
-from moyai.structures.curtain.report.reading import CurtainLevel, attribute, components, curve, key
+from moyai.structures.curtain.report.reading import CurtainLevel, components, curve, key
 
 _BINS = 700  # stretches of a long record whose extremes are drawn
 _SHARES = (("steady", "steady load", 0), ("wave", "added by waves", 2), ("impact", "added by the impact", 1),
@@ -230,7 +230,7 @@ def snap_record(level: CurtainLevel) -> Figure | None:
         Mark(
             f"spike {format_quantity(float(tension[peak]), 'N')}", x=float(time[peak]), y=float(tension[peak]) * factor
         ),
-        Mark("taut", x=attribute(snap, "taut_time")),
+        Mark("taut", x=snap.number("taut_time")),
     ]
     plateau = level.part("impact").value("both_cables_plateau_tension")
     if math.isfinite(plateau):
@@ -244,7 +244,7 @@ def snap_record(level: CurtainLevel) -> Figure | None:
         "Tension of both cables, mid-span downstream of the supports and its speed. Let go at 0, with drag, until "
         "its level is reached.",
         tuple(mark for mark in marks if mark.known),
-        window=_about(time, float(time[peak]), attribute(snap, "taut_time")),
+        window=_about(time, float(time[peak]), snap.number("taut_time")),
         slider=True,
         hint="The strip below holds the whole record: drag its frame or edges, double-click for all.",
         height=120 + 110 * len(panels),
@@ -286,7 +286,7 @@ def record_over_models(level: CurtainLevel, root: Group) -> Figure | None:
             thin = _thinned(y)
             series.append(Series(labels[name], {"time": 1e3 * x[thin]}, y[thin] * factor, tone=tone))
     snap = group.child("snap")
-    x, y, start = snap.real("time", "time"), snap.real("tension", "time"), attribute(snap, "taut_time")
+    x, y, start = snap.real("time", "time"), snap.real("tension", "time"), snap.number("taut_time")
     if x is not None and y is not None and math.isfinite(start):
         part = (x >= start) & (x < start + 6.0 * rise)
         if part.sum() > 2:

@@ -45,12 +45,12 @@ class CurtainLevel:
     @property
     def elevation(self) -> float:
         """Height above datum [m], NaN where not known."""
-        return attribute(self.group, "water_level")
+        return self.group.number("water_level")
 
     @property
     def depth(self) -> float:
         """Water depth [m], NaN where not known."""
-        return attribute(self.group, "water_depth")
+        return self.group.number("water_depth")
 
     @property
     def toe(self) -> str:
@@ -103,14 +103,6 @@ class Component:
         if part in ("wave", "impact") and not whole > self.loads["steady"] * (1.0 + 1e-9):
             return math.nan
         return self.utilisation * self.loads[part] / whole if whole > 0.0 else math.nan
-
-
-def attribute(group: Group, name: str) -> float:
-    """Return a number among the attributes of a group, NaN where it is absent or no number."""
-    try:
-        return float(group.attributes.get(name))  # type: ignore[arg-type]
-    except (TypeError, ValueError):
-        return math.nan
 
 
 def texts(group: Group, name: str, *dims: str) -> NDArray[np.str_] | None:

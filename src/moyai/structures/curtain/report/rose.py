@@ -12,7 +12,7 @@ from moyai.report.document import Abscissa, Block, Column, Drawing, Figure, Mark
 from moyai.report.formatting import format_number, trimmed
 from moyai.report.reading import Group
 from moyai.report.sketch import with_colours
-from moyai.structures.curtain.report.reading import CurtainLevel, attribute, key, texts
+from moyai.structures.curtain.report.reading import CurtainLevel, key, texts
 
 _WIDTH, _HEIGHT, _RADIUS = 760.0, 600.0, 225.0
 _CENTRE = (0.5 * _WIDTH, 265.0)
@@ -39,7 +39,7 @@ def _degrees(angle: float, turn: float = 360.0) -> float:
 
 def _best(group: Group, orientation: Array) -> int | None:
     """Return the row of the best orientation, ``None`` where no sea chooses one."""
-    best = attribute(group, "best_orientation")
+    best = group.number("best_orientation")
     return None if math.isnan(best) else int(np.argmin(np.abs(orientation - best)))
 
 
@@ -108,7 +108,7 @@ def _drawing(level: CurtainLevel, group: Group, orientation: Array, heading: Arr
         svg,
         with_colours(svg),
         "Permissible significant height over the heading to which waves travel, in the current of the case "
-        f"and in half of it, the lower of both; sought up to {format_number(attribute(group, 'highest_height'))} m. "
+        f"and in half of it, the lower of both; sought up to {format_number(group.number('highest_height'))} m. "
         "Dots: the seas of the case. A dot inside a line is permissible.",
     )
 

@@ -14,7 +14,7 @@ from moyai.report.encoding import encode_array
 from moyai.report.formatting import display_unit, format_quantity
 from moyai.report.reading import Group
 from moyai.report.sketch import Sketch, with_colours
-from moyai.structures.curtain.report.reading import CurtainLevel, attribute, key
+from moyai.structures.curtain.report.reading import CurtainLevel, key
 
 
 def _shapes(snap: Group, view: str) -> Array | None:
@@ -40,7 +40,7 @@ def snap_animation(level: CurtainLevel) -> Animation | None:
         section = _carried(section, position)
     at = int(np.argmax(tension))
     boxes = {"plan": _plan_box(plan), "section": None if section is None else _section_box(section, level.depth)}
-    peak, taut = float(times[at]), attribute(snap, "taut_time")
+    peak, taut = float(times[at]), snap.number("taut_time")
     window = _window(times, peak, taut)
     unit = display_unit("N", float(np.max(tension)))
     plan_size = boxes["plan"][3] - boxes["plan"][2] if boxes["plan"] else 1.0

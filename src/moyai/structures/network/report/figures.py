@@ -9,7 +9,7 @@ from moyai.report.decimate import focus_indices, window_around
 from moyai.report.document import Abscissa, Figure, Mark, Panel, Series
 from moyai.report.encoding import slug
 from moyai.report.reading import Group, common_scale
-from moyai.structures.network.report.reading import NetworkLevel, attribute, peak_of_run, texts
+from moyai.structures.network.report.reading import NetworkLevel, peak_of_run, texts
 
 MOST_LINES, MOST_POINTS, WINDOW_PERIODS, BINS = 6, 4, 12.0, 700
 #: Realisations from which their exceedance is drawn.
@@ -17,7 +17,7 @@ LEAST_REALISATIONS = 4
 
 
 def _window(run: Group, time: Array, moment: float) -> tuple[int, int]:
-    period = attribute(run, "period")
+    period = run.number("period")
     length = WINDOW_PERIODS * period if period > 0.0 else 0.1 * (time[-1] - time[0])
     if time[-1] - time[0] <= 1.5 * length:
         return 0, time.size

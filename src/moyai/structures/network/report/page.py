@@ -13,7 +13,7 @@ from moyai.report.headlines import headline_figures
 from moyai.report.levels import at_each_level
 from moyai.report.reading import root_of
 from moyai.structures.network.report import figures, tables
-from moyai.structures.network.report.reading import HighestTension, NetworkLevel, attribute, governing_of, levels_of
+from moyai.structures.network.report.reading import HighestTension, NetworkLevel, governing_of, levels_of
 from moyai.structures.network.report.scene import mode_animations, rest_animation, run_animation
 
 MOST_VIEWS = 8
@@ -63,7 +63,7 @@ def _subtitle(levels: tuple[NetworkLevel, ...]) -> str:
     parts = ["Network", f"{count} line{'s' if count != 1 else ''}" if count else ""]
     nodes = 0 if net.node is None else int(net.node.sizes.get("node", 0))
     parts.append(f"{nodes} nodes")
-    depth = attribute(levels[0].group, "water_depth")
+    depth = levels[0].group.number("water_depth")
     parts.append(f"water depth {format_quantity(depth, 'm')}" if math.isfinite(depth) else "deep water")
     if len(levels) > 1:
         parts.append("water levels " + ", ".join(level.name for level in levels))

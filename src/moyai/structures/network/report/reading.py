@@ -66,14 +66,6 @@ def texts(group: Group, name: str) -> tuple[str, ...]:
     return tuple(str(value) for value in np.atleast_1d(found.values))
 
 
-def attribute(group: Group, name: str) -> float:
-    """Return a number among the attributes of a group, NaN where it is absent or no number."""
-    try:
-        return float(group.attributes.get(name))  # type: ignore[arg-type]
-    except (TypeError, ValueError):
-        return math.nan
-
-
 def peak_of_run(level: NetworkLevel, run: Group) -> HighestTension | None:
     """Return the highest tension of a run after the part that is left out, ``None`` where there is none."""
     best: HighestTension | None = None
@@ -84,7 +76,7 @@ def peak_of_run(level: NetworkLevel, run: Group) -> HighestTension | None:
         peak, when = (summary.value(key, run=run.name, line=line) for key in ("line_tension_maximum", "peak_time"))
         if math.isfinite(peak) and (best is None or peak > best.peak):
             best = HighestTension(level, run, line, peak, when)
-    skip = attribute(run, "skip")
+    skip = run.number("skip")
     counted = time >= time[0] + (skip if math.isfinite(skip) else 0.0)
     for net in run.labels("net"):
         record = run.real("net_tension", "time", net=net)

@@ -14,7 +14,7 @@ from moyai.report.encoding import slug
 from moyai.report.formatting import format_quantity
 from moyai.report.reading import Group
 from moyai.report.scene_3d import Body3D, Faces, Marker, Scene3D, Trace, Waves3D, frame_rows
-from moyai.structures.network.report.reading import NetworkLevel, attribute, peak_of_run, texts
+from moyai.structures.network.report.reading import NetworkLevel, peak_of_run, texts
 
 #: Periods that are played at first, and a length of run that is played whole [s].
 WINDOW_PERIODS, WHOLE = 8.0, 45.0
@@ -118,7 +118,7 @@ def run_animation(level: NetworkLevel, run: Group) -> Animation | None:
     time, position, tension = time[good], position[good], tension[good]
     found = peak_of_run(level, run)
     moment = found.time if found is not None else float(time[-1])
-    period = attribute(run, "period")
+    period = run.number("period")
     length = WINDOW_PERIODS * period if period > 0.0 else WHOLE
     window = (float(time[0]), float(time[-1]))
     if window[1] - window[0] > max(WHOLE, length):
@@ -128,16 +128,16 @@ def run_animation(level: NetworkLevel, run: Group) -> Animation | None:
     rows = frame_rows(time, nodes=position.shape[1], bars=len(pairs), window=window, moments=(moment,))
     place = {int(node): number for number, node in enumerate(kept)}
     cloth = frames.real("sheet_tension", "frame", "triangle")
-    current = (attribute(level.network, "current_x"), attribute(level.network, "current_y"))
-    bed = attribute(level.network, "bed")
-    depth = attribute(level.group, "water_depth")
+    current = (level.network.number("current_x"), level.network.number("current_y"))
+    bed = level.network.number("bed")
+    depth = level.group.number("water_depth")
     scene = Scene3D(
         time[rows], position[rows], pairs, pull[rows], thin,
         _faces(level, place, None if cloth is None else cloth[good][rows]), _markers(level, kept),
         bodies=_solids(level, frames, good, rows), traces=_traces(level, run, pairs, names), waves=_waves(frames),
         bed=bed if math.isfinite(bed) else (-depth if math.isfinite(depth) else None),
         current=(current[0] if math.isfinite(current[0]) else 0.0, current[1] if math.isfinite(current[1]) else 0.0),
-        slack_level=max(attribute(level.network, "slack_level"), 0.0), window=window, maximum=moment, names=names,
+        slack_level=max(level.network.number("slack_level"), 0.0), window=window, maximum=moment, names=names,
     )  # fmt: skip
     said = ""
     if found is not None:
@@ -224,7 +224,7 @@ def _waves(frames: Group) -> Waves3D | None:
     ]
     if any(part is None for part in parts):
         return None
-    ramp = attribute(frames, "ramp")
+    ramp = frames.number("ramp")
     amplitude, omega, number, heading, phase = (np.asarray(part) for part in parts)
     return Waves3D(amplitude, omega, number, heading, phase, ramp if math.isfinite(ramp) else 0.0)
 
@@ -239,8 +239,8 @@ def rest_animation(level: NetworkLevel) -> Animation | None:
     conditions = rest.labels("condition")
     last = signed[-1]
     pairs, thin, names = bars
-    current = attribute(level.network, "current_x"), attribute(level.network, "current_y")
-    bed, depth = attribute(level.network, "bed"), attribute(level.group, "water_depth")
+    current = level.network.number("current_x"), level.network.number("current_y")
+    bed, depth = level.network.number("bed"), level.group.number("water_depth")
     kept = np.arange(last.shape[0])
     shown = "current" in conditions
     scene = Scene3D(
@@ -268,7 +268,7 @@ def mode_animations(level: NetworkLevel) -> Block | None:
         return None
     base = places[-1]
     size = float(np.max(np.ptp(base, axis=0)))
-    bed, depth = attribute(level.network, "bed"), attribute(level.group, "water_depth")
+    bed, depth = level.network.number("bed"), level.group.number("water_depth")
     options = []
     for number in range(shape.shape[0]):
         cycle = float(period[number]) if math.isfinite(period[number]) else 1.0

@@ -12,7 +12,7 @@ from moyai.report.document import Column, Table
 from moyai.report.encoding import slug
 from moyai.report.reading import Group
 from moyai.series.intervals import reach_of_mean
-from moyai.structures.network.report.reading import NetworkLevel, attribute, texts
+from moyai.structures.network.report.reading import NetworkLevel, texts
 
 #: Rows of tables that a reader goes through; longer ones are folded away, and cut.
 FOLDED, MOST_ROWS = 24, 400
@@ -319,7 +319,7 @@ def run_table(level: NetworkLevel) -> Table | None:
         return None
 
     def numbers(name: str) -> Array:
-        return np.array([attribute(run, name) for run in runs])
+        return np.array([run.number(name) for run in runs])
 
     return _table(
         slug(level.name, "runs"),
