@@ -62,6 +62,11 @@ class Network:
     def strand(self, name: str) -> Strand:
         """Return the strand of this name.
 
+        Parameters
+        ----------
+        name : str
+            As it was built.
+
         Raises
         ------
         InputError
@@ -76,6 +81,11 @@ class Network:
 
     def point(self, name: str) -> int:
         """Return the node of a named point.
+
+        Parameters
+        ----------
+        name : str
+            As it was built.
 
         Raises
         ------

@@ -70,7 +70,18 @@ class PeakSensitivity:
         return abs(other / self.peak - 1.0)
 
     def notices(self, limit: float = 0.02) -> tuple[Notice, ...]:
-        """Tell, with the other peaks, when the peak moves by more than ``limit`` with the discretisation."""
+        """Tell, with the other peaks, when the peak moves by more than ``limit`` with the discretisation.
+
+        Parameters
+        ----------
+        limit : float
+            Change over the peak that is passed over [-].
+
+        Returns
+        -------
+        tuple of Notice
+            Empty within the limit.
+        """
         if self.discretisation_error <= limit:
             return ()
 

@@ -80,6 +80,11 @@ class RadiationDiffraction:
     def at_heading(self, heading: float) -> HeadingSolution:
         """Return the solution at one of the headings [rad] that were solved.
 
+        Parameters
+        ----------
+        heading : float
+            Either sign [rad].
+
         Raises
         ------
         InputError

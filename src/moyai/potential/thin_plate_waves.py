@@ -200,11 +200,23 @@ class PlateWaves:
         )
 
     def drift_by_momentum(self, motions: ComplexArray | None = None) -> FarFieldDrift:
-        """Return the mean force of waves along +x from the far field."""
+        """Return the mean force of waves along +x from the far field.
+
+        Parameters
+        ----------
+        motions : ndarray of complex (omega, modes), optional
+            Amplitudes of the modes per unit wave amplitude [-, rad/m]; the plate is held when left out.
+        """
         return mean_drift_far_field(self.solution, motions)
 
     def drift_by_pressure(self, motions: ComplexArray | None = None) -> NearFieldDrift:
-        """Return the mean force of waves along +x from pressure and edge suction; needs rigid modes."""
+        """Return the mean force of waves along +x from pressure and edge suction; needs rigid modes.
+
+        Parameters
+        ----------
+        motions : ndarray of complex (omega, 3), optional
+            Amplitudes of the modes per unit wave amplitude [-, rad/m]; the plate is held when left out.
+        """
         return mean_drift_near_field(self.solution, motions)
 
 
