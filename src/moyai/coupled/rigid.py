@@ -181,7 +181,17 @@ class RigidBody:
         return {name: self.position + turn @ np.asarray(place) for name, place in self.points.items()}
 
     def carrier(self, water: Water, flow: Flow | None = None, time: float = 0.0) -> RigidCarrier:
-        """Return the body in motion from its start at rest."""
+        """Return the body in motion from its start at rest.
+
+        Parameters
+        ----------
+        water : Water
+            Around the body.
+        flow : Flow, optional
+            Current and waves; calm water when left out.
+        time : float
+            When the motion begins [s].
+        """
         return RigidCarrier(self, water, flow or Flow(), time)
 
 
