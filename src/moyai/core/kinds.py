@@ -149,7 +149,7 @@ class StructureKind(Kind):
         model : Block
             The case, as its schema holds it.
         given : Any
-            Criteria that the case states itself.
+            Block ``criteria`` of the case.
         """
         return ()
 

@@ -159,19 +159,19 @@ class RigidBody:
 
     @property
     def pivot(self) -> Array:
-        """Place in body axes whose motion is reported: the pin, or the centre of gravity of a body without one."""
+        """Place in body axes whose motion is reported [m]: the pin, or the centre of gravity without one, (3,)."""
         return np.asarray(self.centre_of_gravity if self.pin is None else self.pin, dtype=float)
 
     @property
     def equilibrium_pose(self) -> tuple[Array, float]:
-        """Place of the origin and yaw that the stiffness counts from."""
+        """Place (3,) of the origin [m] and yaw [rad] that the stiffness counts from, in site axes."""
         if self.equilibrium is None:
             return np.asarray(self.position, dtype=float), float(np.asarray(self.rotation)[2])
         return np.asarray(self.equilibrium[0], dtype=float), float(self.equilibrium[1])
 
     @property
     def start_rotation(self) -> Array:
-        """Rotation matrix at the start, body to site."""
+        """Rotation matrix at the start, body to site, (3, 3) [-]."""
         return rotation_matrix(self.rotation)
 
     @property

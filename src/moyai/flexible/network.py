@@ -107,7 +107,7 @@ class Network:
 
     @property
     def node_volume(self) -> Array:
-        """Displaced volume of every node, wholly wet: what is attached, half of each bar, a third of each triangle."""
+        """Volume of every node, wholly wet: what is attached, half of each bar, a third of each triangle, (n,) [m3]."""
         half = 0.5 * self.bars.of_type("volume_per_length") * self.bars.length
         volume = np.array(self.nodes.volume)
         np.add.at(volume, self.bars.start, half)

@@ -55,12 +55,12 @@ class PeakSensitivity:
 
     @property
     def discretisation_error(self) -> float:
-        """Relative change with step and mesh together, without viscosity."""
+        """Relative change with step and mesh together, without viscosity [-]."""
         return self._change(self.half_step) + self._change(self.double_mesh)
 
     @property
     def viscosity_effect(self) -> float:
-        """Largest relative change when the viscosity is halved or doubled."""
+        """Largest relative change when the viscosity is halved or doubled [-]."""
         return max(self._change(self.half_viscosity), self._change(self.double_viscosity))
 
     def _change(self, other: float) -> float:

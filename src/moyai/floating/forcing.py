@@ -145,7 +145,7 @@ class RegularForcing:
 
     @property
     def shortest_period(self) -> float:
-        """The wave period, half of it when the drift pulsates."""
+        """The wave period, half of it when the drift pulsates [s]."""
         period = 2.0 * math.pi / self.omega
         return 0.5 * period if self.drift_law == "pulsating" and np.any(self.mean_drift) else period
 
@@ -306,7 +306,7 @@ class IrregularForcing:
 
     @property
     def shortest_period(self) -> float:
-        """Period below which less than ``1 - energy_share`` of the wave energy lies."""
+        """Period below which less than ``1 - energy_share`` of the wave energy lies [s]."""
         order = np.argsort(self.omega)
         energy = np.cumsum(np.abs(self.amplitude[order]) ** 2)
         last = int(np.searchsorted(energy, self.energy_share * energy[-1]))

@@ -245,7 +245,7 @@ class Line:
 
     @cached_property
     def table(self) -> Array:
-        """One row a segment for the kernels: length, EA, submerged weight, clump at its upper end."""
+        """One row a segment for the kernels: length [m], EA [N], submerged weight [N/m], clump at its upper end [N]."""
         rows = np.zeros((len(self.segments), 4))
         for row, segment in zip(rows, self.segments):
             row[:3] = segment.length, segment.line_type.axial_stiffness, segment.line_type.submerged_weight

@@ -122,7 +122,7 @@ class CirculationLaw:
 
     @property
     def largest(self) -> float:
-        """Largest Keulegan-Carpenter number for which the law or the table speaks."""
+        """Largest Keulegan-Carpenter number for which the law or the table speaks [-]."""
         return max(HELD_LIMIT, self.table[-1][0]) if self.table else HELD_LIMIT
 
     def share(self, keulegan_carpenter: ArrayLike, breadth: float, area: float, gamma: float) -> Array:

@@ -63,7 +63,7 @@ class StraightMember:
 
     @cached_property
     def axes(self) -> Array:
-        """Unit vectors (3, 3): first axis, second axis, member axis.
+        """Unit vectors (3, 3): first axis, second axis, member axis, in site axes [-].
 
         The second axis is the direction across the member closest to upwards; the first one is horizontal and leans
         towards +x (towards +y for a member along x). An upright member has its first axis along +x, the second along

@@ -124,7 +124,7 @@ class Net:
 
     @property
     def solidity(self) -> float:
-        """Solidity that modern laws use: the measured one where there is one, else that of the geometry."""
+        """Solidity that modern laws use [-]: the measured one where there is one, else that of the geometry."""
         return self.solidity_geometric if self.solidity_measured is None else self.solidity_measured
 
     @property
@@ -134,7 +134,7 @@ class Net:
 
     @property
     def listed(self) -> float:
-        """The listed solidity, 2 d / p where none is listed."""
+        """The listed solidity, 2 d / p where none is listed [-]."""
         return self.solidity_doubled if self.solidity_listed is None else self.solidity_listed
 
     @property

@@ -93,7 +93,7 @@ class PlateLine:
 
     @property
     def outline(self) -> Array:
-        """Points (n, 2) along the plate for drawings, arcs as chords."""
+        """Points (n, 2) along the plate for drawings, x, z [m], arcs as chords."""
         return as_points(_chords(self.edges))
 
     def moved(self, shift: tuple[float, float] = (0.0, 0.0), heel: float = 0.0) -> PlateLine:

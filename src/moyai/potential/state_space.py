@@ -70,7 +70,7 @@ class StateSpace:
 
     @property
     def a(self) -> Array:
-        """Real block-diagonal system matrix (order, order)."""
+        """Real block-diagonal system matrix (order, order) [1/s]."""
         return self._real()[0]
 
     @property

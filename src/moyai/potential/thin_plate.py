@@ -88,7 +88,7 @@ class Plate:
 
     @property
     def corner(self) -> float:
-        """Sine of the angle between the plate and the still water at the start; 1 for a submerged plate."""
+        """Sine of the angle between plate and still water at the start [-]; 1 for a submerged plate."""
         if not self.pierces:
             return 1.0
         slope = self.slope(np.array([0.0]))[0]
