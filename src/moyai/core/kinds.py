@@ -161,9 +161,9 @@ class StructureKind(Kind):
         model : Block
             The case, as its schema holds it.
         sizes : Any
-            What the sizes are added to [m].
+            Values in SI units with the keys that each follows from, by path; added to.
         periods : Any
-            What the periods are added to [s].
+            Periods [s] with their keys; added to.
         """
 
     @abstractmethod

@@ -278,7 +278,7 @@ class IrregularForcing:
         Raises
         ------
         InputError
-            When the sea holds no energy, or the drift is not finite.
+            When the sea holds no energy, the drift is not finite, or a heading lies outside the computed ones.
         """
         size = hydrodynamics.size
         amplitude = sea.complex_amplitude

@@ -136,7 +136,7 @@ class CirculationLaw:
         keulegan_carpenter : array_like (...)
             [-].
         breadth : float
-            Of the section, across the flow [m].
+            Of the section [m].
         area : float
             Of the section [m2].
         gamma : float
@@ -163,7 +163,7 @@ class CirculationLaw:
         keulegan_carpenter : array_like (...)
             [-].
         breadth : float
-            Of the section, across the flow [m].
+            Of the section [m].
         area : float
             Of the section [m2].
         gamma : float
@@ -185,7 +185,7 @@ class CirculationLaw:
         keulegan_carpenter : array_like (...)
             [-].
         breadth : float
-            Of the section, across the flow [m].
+            Of the section [m].
         area : float
             Of the section [m2].
         gamma : float
