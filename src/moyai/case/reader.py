@@ -70,7 +70,13 @@ class Case:
         return f"<case of kind {self.kind}: {self.title!r}, {self.path}>"
 
     def located(self, error: InputError) -> InputError:
-        """Return an error of a run with the key that its parameter came from, and the line of that key."""
+        """Return an error of a run with the key that its parameter came from, and the line of that key.
+
+        Parameters
+        ----------
+        error : InputError
+            As the run raised it.
+        """
         return Findings(self.document, structure_kind(self.kind).keys()).located(error)
 
     def replace(self, path: str | Mapping[str, Any], value: Any = None) -> Case:

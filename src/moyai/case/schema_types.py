@@ -251,13 +251,26 @@ class Block(BaseModel):
     at_most_one: ClassVar[KeyGroups] = ()
 
     def changed(self, **values: Any) -> Self:
-        """Return the block with other values, which are not checked."""
+        """Return the block with other values, which are not checked.
+
+        Parameters
+        ----------
+        **values : Any
+            By the name of the field.
+        """
         return self.model_copy(update=values)
 
     def fill(self, kind: type[Filled], **others: Any) -> Filled:
         """Return the settings of an analysis, from the keys of the same names and from ``others``.
 
         A key that is absent leaves the default of the settings.
+
+        Parameters
+        ----------
+        kind : type
+            Dataclass of the settings.
+        **others : Any
+            Further fields, which go before the keys.
         """
         names = {one.name for one in fields(kind)} & type(self).model_fields.keys() - others.keys()  # type: ignore[arg-type]
         given = {name: value for name in names if (value := getattr(self, name)) is not None}

@@ -63,7 +63,20 @@ class CaseDocument:
 
     @checks_words
     def place(self, path: KeyPath, *, of_key: bool = False) -> Place:
-        """Return the place of ``path``, or of the nearest block around it that is written in the file."""
+        """Return the place of ``path``, or of the nearest block around it that is written in the file.
+
+        Parameters
+        ----------
+        path : sequence of str or int
+            Keys and numbers of entries, from the root.
+        of_key : bool
+            Whether the key is meant and not its value.
+
+        Returns
+        -------
+        Place
+            Line and column, counted from 1.
+        """
         for length in range(len(path), -1, -1):
             head = tuple(path[:length])
             # Of a block that lacks a key, the line of its own key gives more than the line of its first entry
@@ -75,7 +88,21 @@ class CaseDocument:
 
     @checks_words
     def fault(self, path: KeyPath, message: str, *, allowed: str = "", remedy: str = "", of_key: bool = False) -> Fault:
-        """Return a fault at ``path``."""
+        """Return a fault at ``path`` with its place in the file.
+
+        Parameters
+        ----------
+        path : sequence of str or int
+            Keys and numbers of entries, from the root.
+        message : str
+            What is wrong.
+        allowed : str
+            What is allowed.
+        remedy : str
+            How to correct it.
+        of_key : bool
+            Whether the key is meant and not its value.
+        """
         place = self.place(path, of_key=of_key)
         return Fault(message, dotted(path), allowed, remedy, self.file, place.line, place.column)
 

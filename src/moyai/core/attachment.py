@@ -32,6 +32,18 @@ class PointCarrier(Protocol):
 
         ``reaction`` has shape (2, points, 3): mean and tilt [N]. A second call starts again from the last accepted
         state, with better forces or with another ``end``.
+
+        Parameters
+        ----------
+        end : float
+            Later than the last accepted state [s].
+        reaction : ndarray (2, points, 3)
+            Mean and tilt of the forces, site axes [N].
+
+        Returns
+        -------
+        tuple of ndarray (points, 3)
+            Place [m] and velocity [m/s], site axes.
         """
 
     def accept(self) -> None:

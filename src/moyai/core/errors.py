@@ -59,12 +59,24 @@ class MoyaiError(Exception):
         super().__init__(str(self.fault))
 
     def at(self, path: str) -> Self:
-        """Return the error with another key or parameter."""
+        """Return the error with another key or parameter.
+
+        Parameters
+        ----------
+        path : str
+            Key of the file, or parameter of the call.
+        """
         return self.of(replace(self.fault, path=path))
 
     @classmethod
     def of(cls, fault: Fault) -> Self:
-        """Return the error of a fault, with its place in a file."""
+        """Return the error of a fault, with its place in a file.
+
+        Parameters
+        ----------
+        fault : Fault
+            What is wrong, and where.
+        """
         error = cls(fault.message)
         error.fault, error.args = fault, (str(fault),)
         return error

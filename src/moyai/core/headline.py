@@ -65,7 +65,15 @@ class Band:
     beyond_bound: bool = False
 
     def scaled(self, less: float, more: float | None = None) -> Band:
-        """Return the band with its lower ends times ``less`` and its upper ends times ``more``, the same by default."""
+        """Return the band with its lower ends times ``less`` and its upper ends times ``more``, the same by default.
+
+        Parameters
+        ----------
+        less : float
+            0 or more [-].
+        more : float, optional
+            0 or more [-].
+        """
         more = less if more is None else more
         judged = None if self.judged is None else (less * self.judged[0], more * self.judged[1])
         settled = None if self.settled is None else more * self.settled
@@ -141,7 +149,13 @@ class Headline:
 
     @classmethod
     def from_dict(cls, record: Mapping[str, Any]) -> Headline:
-        """Undo :meth:`as_dict`."""
+        """Undo :meth:`as_dict`.
+
+        Parameters
+        ----------
+        record : mapping
+            As :meth:`as_dict` gives it.
+        """
         band = record.get("band")
         if band is not None:
             judged = band.get("judged")
@@ -294,7 +308,13 @@ class Verdict:
 
     @classmethod
     def from_dict(cls, record: Mapping[str, Any]) -> Verdict:
-        """Undo :meth:`as_dict`."""
+        """Undo :meth:`as_dict`.
+
+        Parameters
+        ----------
+        record : mapping
+            As :meth:`as_dict` gives it.
+        """
         judgements = tuple(Judgement.from_dict(item) for item in record.get("judgements", ()))
         return cls(record.get("outcome", "not judged"), record.get("message", ""), judgements)
 

@@ -61,7 +61,13 @@ class Criterion:
         return f"{text} in {self.sea}" if self.sea else text
 
     def shown(self, value: float) -> float:
-        """Return a value as people read it: the factor of safety in place of the utilisation."""
+        """Return a value as people read it: the factor of safety in place of the utilisation.
+
+        Parameters
+        ----------
+        value : float
+            As it is judged, in the unit of the criterion.
+        """
         if not self.as_factor:
             return value
         return math.inf if value == 0.0 else 1.0 / value
@@ -101,7 +107,13 @@ class Judgement:
 
     @classmethod
     def from_dict(cls, record: Mapping[str, Any]) -> Judgement:
-        """Undo :meth:`as_dict`."""
+        """Undo :meth:`as_dict`.
+
+        Parameters
+        ----------
+        record : mapping
+            As :meth:`as_dict` gives it.
+        """
         given = record["criterion"]
         criterion = Criterion(**{**given, "limit": float(given["limit"])})
         return cls(

@@ -57,22 +57,55 @@ class Kind(ABC):
         return None
 
     def vocabulary_of(self, root: Mapping[Any, Any]) -> Vocabulary | None:
-        """Return the names that one result may carry, by its root attributes, where the kind has several models."""
+        """Return the names that one result may carry, by its root attributes, where the kind has several models.
+
+        Parameters
+        ----------
+        root : mapping
+            Attributes of the root of the result's tree.
+        """
         return self.vocabulary()
 
     @abstractmethod
     def compose(self, result: Result) -> Any:
-        """Return the report of a result, a :class:`moyai.report.document.Document`."""
+        """Return the report of a result, a :class:`moyai.report.document.Document`.
+
+        Parameters
+        ----------
+        result : Result
+            Of this kind.
+        """
 
     def file_schema(self, name: str) -> Any:
         """Return the root schema of the user's file that :attr:`templates` holds under this name.
 
         A subclass of :class:`moyai.case.schema_types.Block`.
+
+        Parameters
+        ----------
+        name : str
+            Key of :attr:`templates`.
+
+        Raises
+        ------
+        NotImplementedError
+            For a kind that does not say it.
         """
         raise NotImplementedError(name)
 
     def template(self, name: str) -> str:
-        """Return the text of one of :attr:`templates`."""
+        """Return the text of one of :attr:`templates`.
+
+        Parameters
+        ----------
+        name : str
+            Key of :attr:`templates`.
+
+        Raises
+        ------
+        KeyError
+            When there is none of that name.
+        """
         return (files(self.package) / dict(self.templates)[name]).read_text(encoding="utf-8")
 
 
@@ -95,7 +128,13 @@ class StructureKind(Kind):
         """Return the root schema of the case files, a subclass of :class:`moyai.case.schema_types.Block`."""
 
     def file_schema(self, name: str) -> Any:
-        """Return :meth:`schema`: all templates of a structure are case files."""
+        """Return :meth:`schema`: all templates of a structure are case files.
+
+        Parameters
+        ----------
+        name : str
+            Plays no part.
+        """
         return self.schema()
 
     def keys(self) -> Mapping[str, str]:
@@ -103,29 +142,82 @@ class StructureKind(Kind):
         return {}
 
     def criteria(self, model: Any, given: Any) -> Any:
-        """Yield what the headlines are judged against (:class:`moyai.core.headline.Criterion`); nothing by default."""
+        """Yield what the headlines are judged against (:class:`moyai.core.headline.Criterion`); nothing by default.
+
+        Parameters
+        ----------
+        model : Block
+            The case, as its schema holds it.
+        given : Any
+            Block ``criteria`` of the case.
+        """
         return ()
 
     def add_sizes(self, model: Any, sizes: Any, periods: Any) -> None:
-        """Add sizes that numbers of a case are compared with (:mod:`moyai.case.plausible_sizes`); none by default."""
+        """Add sizes that numbers of a case are compared with (:mod:`moyai.case.plausible_sizes`); none by default.
+
+        Parameters
+        ----------
+        model : Block
+            The case, as its schema holds it.
+        sizes : Any
+            Values in SI units with the keys that each follows from, by path; added to.
+        periods : Any
+            Periods [s] with their keys; added to.
+        """
 
     @abstractmethod
     def check(self, model: Any, findings: Any, folder: Path) -> None:
-        """Record errors and warnings beyond the schema in a :class:`moyai.case.findings.Findings`."""
+        """Record errors and warnings beyond the schema in a :class:`moyai.case.findings.Findings`.
+
+        Parameters
+        ----------
+        model : Block
+            The case, as its schema holds it.
+        findings : Findings
+            What the errors and warnings are added to.
+        folder : Path
+            That paths in the case are relative to.
+        """
 
     @abstractmethod
     def build(self, model: Any, folder: Path, *, case_text: str, case_hash: str) -> Any:
-        """Return the problem of a case, in SI units and radians, frozen."""
+        """Return the problem of a case, in SI units and radians, frozen.
+
+        Parameters
+        ----------
+        model : Block
+            The case, as its schema holds it.
+        folder : Path
+            That paths in the case are relative to.
+        case_text : str
+            Of the file, for the provenance.
+        case_hash : str
+            Of that text.
+        """
 
     @abstractmethod
     def derived(self, case: Any) -> Any:
-        """Return the numbers that ``moyai check`` shows, a tuple of :class:`moyai.case.derived.Number`."""
+        """Return the numbers that ``moyai check`` shows, a tuple of :class:`moyai.case.derived.Number`.
+
+        Parameters
+        ----------
+        case : Case
+            Checked.
+        """
 
     def nominal(self, problem: Any, shown: Collection[str] = ()) -> Any | None:
         """Return a problem without what only states how far its answer varies: ranges, bands, other laws, other speeds.
 
         For a first draft, marked as such; ``shown`` names the sections of the report that are looked at, all where it
         is empty. None where there is nothing to leave out.
+
+        Parameters
+        ----------
+        problem : Any
+            As :meth:`build` returns it.
+        shown : collection of str
+            Sections of the report.
         """
         return None
 
@@ -133,6 +225,13 @@ class StructureKind(Kind):
         """Return a problem with one of its water levels alone, for a first draft; None where it has no more than one.
 
         ``level`` is its name or words of a report that begin with it; the first where it has no such level.
+
+        Parameters
+        ----------
+        problem : Any
+            As :meth:`build` returns it.
+        level : str
+            Name of a water level.
         """
         levels = dict(getattr(getattr(problem, "environment", None), "water_levels", ()))
         if len(levels) < 2:
@@ -142,7 +241,17 @@ class StructureKind(Kind):
 
     @abstractmethod
     def run(self, problem: Any, progress: Progress, keep: Path | None) -> Result:
-        """Run all analyses of a problem; what took long is kept in the folder ``keep`` for the next run."""
+        """Run all analyses of a problem; what took long is kept in the folder ``keep`` for the next run.
+
+        Parameters
+        ----------
+        problem : Any
+            As :meth:`build` returns it.
+        progress : Progress
+            Is told how far the run is.
+        keep : Path or None
+            Nothing is kept without it.
+        """
 
 
 def level_of_words(names: Iterable[str], words: str) -> str:

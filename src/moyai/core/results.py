@@ -76,11 +76,23 @@ class Result:
         return self.__dict__["tree"] if "tree" in self.__dict__ else self.__dict__["_groups"]
 
     def changed(self, **changes: Any) -> Self:
-        """Return the result with other fields."""
+        """Return the result with other fields.
+
+        Parameters
+        ----------
+        **changes : Any
+            By the name of the field.
+        """
         return replace(self, **{"tree": self.held, **changes})
 
     def with_notices(self, *notices: Notice) -> Result:
-        """Return the same result with further notices; an ``error`` among them lowers the status."""
+        """Return the same result with further notices; an ``error`` among them lowers the status.
+
+        Parameters
+        ----------
+        *notices : Notice
+            Added after those of the result.
+        """
         status = self.status
         if status == "converged" and any(notice.severity == "error" for notice in notices):
             status = "outside_validity"
@@ -89,6 +101,16 @@ class Result:
 
     def write(self, path: str | os.PathLike[str]) -> Path:
         """Write NetCDF under ``path``; a file under the final name is always complete.
+
+        Parameters
+        ----------
+        path : str or path-like
+            Name of the file.
+
+        Returns
+        -------
+        Path
+            Of the file that was written.
 
         Raises
         ------

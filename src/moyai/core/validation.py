@@ -68,7 +68,18 @@ class ValidationCase:
         return reference_kind(self.source)
 
     def error(self, value: float) -> float:
-        """Return the absolute or relative error of ``value``."""
+        """Return the absolute or relative error of ``value``.
+
+        Parameters
+        ----------
+        value : float
+            In the unit of the reference.
+
+        Returns
+        -------
+        float
+            In that unit, or [-] where it is relative.
+        """
         difference = abs(value - self.reference)
         if self.relative:
             return difference / abs(self.reference) if self.reference else math.inf

@@ -78,7 +78,13 @@ class Lumps:
             )
 
     def arrays(self, centre: Array) -> tuple[Array, ...]:
-        """Return what the kernel reads, places counted from ``centre`` [m]."""
+        """Return what the kernel reads, places counted from ``centre`` [m].
+
+        Parameters
+        ----------
+        centre : ndarray (3,)
+            Centre of gravity in body axes [m].
+        """
         return (
             np.ascontiguousarray(self.place - centre), self.volume.copy(), self.length.copy(), self.breadth.copy(),
             self.drag_area.copy(), self.added_mass.copy(), np.array(self.axis),

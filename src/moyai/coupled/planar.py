@@ -109,7 +109,17 @@ class PlanarBody:
         return dict(zip(self.points, place, strict=True))
 
     def carrier(self, water: Water, flow: Flow | None = None, time: float = 0.0) -> PlanarCarrier:
-        """Return the body in motion; water and flow are in its model already."""
+        """Return the body in motion; water and flow are in its model already.
+
+        Parameters
+        ----------
+        water : Water
+            Plays no part.
+        flow : Flow, optional
+            Plays no part.
+        time : float
+            When the motion begins [s].
+        """
         return PlanarCarrier(self, time)
 
 

@@ -159,19 +159,19 @@ class RigidBody:
 
     @property
     def pivot(self) -> Array:
-        """Place in body axes whose motion is reported: the pin, or the centre of gravity of a body without one."""
+        """Place in body axes whose motion is reported [m]: the pin, or the centre of gravity without one, (3,)."""
         return np.asarray(self.centre_of_gravity if self.pin is None else self.pin, dtype=float)
 
     @property
     def equilibrium_pose(self) -> tuple[Array, float]:
-        """Place of the origin and yaw that the stiffness counts from."""
+        """Place (3,) of the origin [m] and yaw [rad] that the stiffness counts from, in site axes."""
         if self.equilibrium is None:
             return np.asarray(self.position, dtype=float), float(np.asarray(self.rotation)[2])
         return np.asarray(self.equilibrium[0], dtype=float), float(self.equilibrium[1])
 
     @property
     def start_rotation(self) -> Array:
-        """Rotation matrix at the start, body to site."""
+        """Rotation matrix at the start, body to site, (3, 3) [-]."""
         return rotation_matrix(self.rotation)
 
     @property
@@ -181,7 +181,17 @@ class RigidBody:
         return {name: self.position + turn @ np.asarray(place) for name, place in self.points.items()}
 
     def carrier(self, water: Water, flow: Flow | None = None, time: float = 0.0) -> RigidCarrier:
-        """Return the body in motion from its start at rest."""
+        """Return the body in motion from its start at rest.
+
+        Parameters
+        ----------
+        water : Water
+            Around the body.
+        flow : Flow, optional
+            Current and waves; calm water when left out.
+        time : float
+            When the motion begins [s].
+        """
         return RigidCarrier(self, water, flow or Flow(), time)
 
 

@@ -175,7 +175,15 @@ class WaveLoads:
         )
 
     def about(self, centre: Array, position: Array) -> WaveLoads:
-        """Return the loads about the centre of gravity, given in body axes [m]."""
+        """Return the loads about the centre of gravity.
+
+        Parameters
+        ----------
+        centre : ndarray (3,)
+            Centre of gravity in body axes [m].
+        position : ndarray (3,)
+            Of the body at its start, site axes [m]; the loads do not depend on it.
+        """
         old = self.reference
         new = np.array(
             [centre[0] - self.origin[0], centre[1] - self.origin[1], centre[2] + self.equilibrium_position[2]]
@@ -200,6 +208,11 @@ class WaveLoads:
 
     def excitation(self, waves: WaveComponents | None) -> Excitation | None:
         """Return the exciting force of these waves, or None in calm water.
+
+        Parameters
+        ----------
+        waves : WaveComponents or None
+            The sea; None is calm water.
 
         Raises
         ------
@@ -277,7 +290,29 @@ class Excitation:
         return found
 
     def force(self, time: float, place: Array, yaw: float, growth: float) -> Array:
-        """Return force and moment about the centre of gravity in site axes (6,)."""
+        """Return force and moment about the centre of gravity in site axes (6,).
+
+        Parameters
+        ----------
+        time : float
+            [s].
+        place : ndarray (3,)
+            Centre of gravity in site axes [m].
+        yaw : float
+            Of the body [rad].
+        growth : float
+            Share of the waves that has grown, 0 to 1 [-].
+
+        Returns
+        -------
+        ndarray (6,)
+            [N, N m].
+
+        Raises
+        ------
+        InputError
+            When a wave meets the body outside the headings of the coefficients.
+        """
         waves = self.waves
         c, s = math.cos(yaw), math.sin(yaw)
         x, y = self.place

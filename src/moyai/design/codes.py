@@ -74,7 +74,17 @@ class DesignCode:
 
     @checks_words
     def value(self, rule: RuleName, condition: Literal["intact", "one_lost"], component: Component) -> CodeRule | None:
-        """Return the rule that applies, the most special first; ``None`` when the code has none."""
+        """Return the rule that applies, the most special first; ``None`` when the code has none.
+
+        Parameters
+        ----------
+        rule : str
+            Name of the rule.
+        condition : {"intact", "one_lost"}
+            All lines, or one of them lost.
+        component : str
+            What is judged, for instance ``chain``.
+        """
         return applicable_rule(
             self.rules,
             rule,

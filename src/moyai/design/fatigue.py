@@ -44,7 +44,18 @@ class EnduranceCurve:
     source: str
 
     def cycles_to_failure(self, ranges: ArrayLike) -> Any:
-        """Return the number of cycles to failure; infinite at zero range [eq:fatigue-curve]."""
+        """Return the number of cycles to failure; infinite at zero range [eq:fatigue-curve].
+
+        Parameters
+        ----------
+        ranges : array_like (...)
+            In the unit of the curve.
+
+        Returns
+        -------
+        float or ndarray (...)
+            [-].
+        """
         r = np.asarray(ranges, dtype=float)
         with np.errstate(divide="ignore"):
             return plain(self.capacity / r**self.exponent)

@@ -136,7 +136,15 @@ class JointSea:
     deviation_log: tuple[float, float, float]
 
     def period(self, height: ArrayLike, normal: ArrayLike) -> Array:
-        """Return the period at a height whose conditional quantile is that of a standard normal value."""
+        """Return the period [s] at a height whose conditional quantile is that of a standard normal value.
+
+        Parameters
+        ----------
+        height : array_like (...)
+            Significant wave height [m].
+        normal : array_like (...)
+            Standard normal value [-].
+        """
         h = np.asarray(height, dtype=float)
         a0, a1, a2 = self.mean_log
         b0, b1, b2 = self.deviation_log

@@ -64,11 +64,37 @@ class Scale:
         return float(self.length**exponent * self.density**dimension.mass * self.gravity ** (-0.5 * dimension.time))
 
     def to_model(self, value: float, unit: str) -> float:
-        """Return the model's value of a prototype's value in ``unit``."""
+        """Return the model's value of a prototype's value in ``unit``.
+
+        Parameters
+        ----------
+        value : float
+            Of the prototype, in ``unit``.
+        unit : str
+            As for :meth:`ratio`.
+
+        Raises
+        ------
+        InputError
+            For an unknown unit.
+        """
         return value / self.ratio(unit)
 
     def to_prototype(self, value: float, unit: str) -> float:
-        """Return the prototype's value of a model's value in ``unit``."""
+        """Return the prototype's value of a model's value in ``unit``.
+
+        Parameters
+        ----------
+        value : float
+            Of the model, in ``unit``.
+        unit : str
+            As for :meth:`ratio`.
+
+        Raises
+        ------
+        InputError
+            For an unknown unit.
+        """
         return value * self.ratio(unit)
 
 

@@ -149,12 +149,35 @@ class Bed:
 
     @classmethod
     def on(cls, ground: Ground, stiffness: float, damping: float = 0.0, friction: float = 0.0) -> Bed:
-        """Return a bed that varies; arguments as the attributes."""
+        """Return a bed that varies; arguments as the attributes.
+
+        Parameters
+        ----------
+        ground : Ground
+            Levels of the bed [m].
+        stiffness : float
+            Normal stiffness per contact area [Pa/m].
+        damping : float
+            Normal damping per contact area [Pa s/m].
+        friction : float
+            Coulomb coefficient [-].
+
+        Raises
+        ------
+        InputError
+            For a negative value or a stiffness of zero.
+        """
         bed = cls(0.0, stiffness, damping, friction, ground)
         return replace(bed, level=float(bed.level_at(np.zeros(3))))
 
     def numbers(self, fade: float = 1e-5) -> Array:
-        """Return the array of :mod:`moyai.flexible.ground_kernel`, friction faded below the speed ``fade`` [m/s]."""
+        """Return the array of :mod:`moyai.flexible.ground_kernel`, friction faded below the speed ``fade`` [m/s].
+
+        Parameters
+        ----------
+        fade : float
+            [m/s].
+        """
         head = [self.level, self.friction, fade, 1.0]
         if self.ground is None:
             return np.array(head)
@@ -164,7 +187,13 @@ class Bed:
         )
 
     def contact_at(self, place: ArrayLike) -> Array:
-        """Return depth in the bed along its normal [m] and the normal at places (n, 3), shape (n, 4)."""
+        """Return depth in the bed along its normal [m] and the normal at places (n, 3), shape (n, 4).
+
+        Parameters
+        ----------
+        place : array_like (n, 3)
+            x, y, z in site axes [m]; one place may be given as (3,).
+        """
         where = np.ascontiguousarray(np.atleast_2d(np.asarray(place, dtype=np.float64)))
         out = np.empty((len(where), 4))
         if self.ground is None:
@@ -174,7 +203,13 @@ class Bed:
         return out
 
     def level_at(self, place: ArrayLike) -> Array:
-        """Return the height of the bed under places (..., 2 or 3) [m]."""
+        """Return the height of the bed under places (..., 2 or 3) [m].
+
+        Parameters
+        ----------
+        place : array_like (..., 2 or 3)
+            x, y and perhaps z in site axes [m].
+        """
         where = np.asarray(place, dtype=np.float64)
         if self.ground is None:
             return np.full(where.shape[:-1], self.level)
@@ -189,11 +224,23 @@ class Bed:
         return 1e-9 * abs(self.level) + (0.0 if self.ground is None else self.ground.rounding)
 
     def level_for(self, low: Array) -> float:
-        """Return the height of the flat bed on which the first guess of a line with this lower end hangs [m]."""
+        """Return the height of the flat bed on which the first guess of a line with this lower end hangs [m].
+
+        Parameters
+        ----------
+        low : ndarray (3,)
+            Lower end of the line, site axes [m].
+        """
         return self.level if self.ground is None else min(float(self.level_at(low)), float(low[2]))
 
     def carried(self, points: Array) -> Array:
-        """Return points of a first guess (n, 3) on or above a bed that varies [m]."""
+        """Return points of a first guess (n, 3) on or above a bed that varies [m].
+
+        Parameters
+        ----------
+        points : ndarray (n, 3)
+            Site axes [m].
+        """
         if self.ground is None:
             return points
         return np.column_stack([points[:, :2], np.maximum(points[:, 2], self.level_at(points))])

@@ -1,11 +1,5 @@
 """Put a network together from points, lines and nets.
 
->>> builder = NetworkBuilder(water)                                          # doctest: +SKIP
->>> builder.fixed("anchor", (0.0, 0.0, -10.0))                               # doctest: +SKIP
->>> builder.driven("fairlead", (97.5, 0.0, 0.0))                             # doctest: +SKIP
->>> builder.line("chain", "anchor", "fairlead", chain, length=100.0, segments=50)  # doctest: +SKIP
->>> network = builder.build()                                                # doctest: +SKIP
-
 Nodes of one line stand next to each other in memory, so that the kernels run over them in one sweep.
 """
 
@@ -126,13 +120,34 @@ class NetworkBuilder:
         self._points[name] = _Point(place, kind, held, motion, form=form, **{**values, **attached})
 
     def fixed(self, name: str, position: ArrayLike) -> None:
-        """Add a point that does not move (an anchor)."""
+        """Add a point that does not move (an anchor).
+
+        Parameters
+        ----------
+        name, position : str and array_like (3,)
+            A name of its own, and the place in site axes [m].
+
+        Raises
+        ------
+        InputError
+            For a name that is taken or a position that is not three finite numbers.
+        """
         self._add(name, position, FIXED, (False, False, False), -1)
 
     def driven(self, name: str, position: ArrayLike, motion: str | None = None) -> None:
         """Add a point that follows the prescribed motion of this name (its own name when left out).
 
-        ``position`` is where it stands while the motion is zero.
+        Parameters
+        ----------
+        name, position : str and array_like (3,)
+            A name of its own, and the place in site axes while the motion is zero [m].
+        motion : str, optional
+            Name of the motion.
+
+        Raises
+        ------
+        InputError
+            For a name that is taken or a position that is not three finite numbers.
         """
         slot = motion or name
         if slot not in self._motions:
@@ -164,10 +179,8 @@ class NetworkBuilder:
             Start position of its centre [m].
         mass, volume : float
             Attached mass [kg] and displaced volume when wholly wet [m3].
-        drag_area : float
-            Drag coefficient times area, all directions alike [m2].
-        added_mass : float
-            When wholly wet, all directions alike [kg].
+        drag_area, added_mass : float
+            Drag coefficient times area [m2] and added mass [kg] when wholly wet, all directions alike.
         contact_area : float
             With the bed [m2].
         height : float
@@ -193,7 +206,22 @@ class NetworkBuilder:
         drag_coefficient: float,
         added_mass_coefficient: float,
     ) -> None:
-        """Add a spherical float or buoy with partial immersion [eq:flexible-immersion]."""
+        """Add a spherical float or buoy with partial immersion [eq:flexible-immersion].
+
+        Parameters
+        ----------
+        name, position : str and array_like (3,)
+            A name of its own, and the centre in site axes [m].
+        diameter, mass : float
+            [m], [kg].
+        drag_coefficient, added_mass_coefficient : float
+            On the circular area and on the displaced mass [-].
+
+        Raises
+        ------
+        InputError
+            For a name that is taken or a position that is not three finite numbers, or a negative value.
+        """
         volume = np.pi / 6.0 * diameter**3
         self.free(
             name, position, mass=mass, volume=volume, drag_area=drag_coefficient * np.pi / 4.0 * diameter**2,
@@ -208,7 +236,12 @@ class NetworkBuilder:
         return len(self._types) - 1
 
     def position(self, name: str) -> Array:
-        """Return the position of a named point [m].
+        """Return the position (3,) of a named point in site axes [m].
+
+        Parameters
+        ----------
+        name : str
+            As the point was added.
 
         Raises
         ------
@@ -326,6 +359,11 @@ class NetworkBuilder:
             Twine of the columns when it differs.
         flow_factor : float
             Factor on the water velocity that meets the net.
+
+        Raises
+        ------
+        InputError
+            For points or lengths of another shape.
         """
         grid = np.array(points, dtype=np.float64)
         if grid.ndim != 3 or grid.shape[2] != 3 or min(grid.shape[:2]) < 2:
@@ -406,6 +444,11 @@ class NetworkBuilder:
             Name of the motion of a driven first row (the sheet's name when left out).
         **properties
             Stiffnesses, mass, drag ... of :class:`moyai.flexible.sheets.Sheets`.
+
+        Raises
+        ------
+        InputError
+            For points of another shape.
         """
         grid = np.array(points, dtype=np.float64)
         if grid.ndim != 3 or grid.shape[2] != 3:

@@ -166,12 +166,26 @@ class BarType:
         return math.sqrt(self.axial_stiffness * self.mass_per_length)
 
     def submerged_weight_per_length(self, water: Water) -> float:
-        """Weight in water per unstretched metre [N/m]."""
+        """Return the weight in water per unstretched metre [N/m].
+
+        Parameters
+        ----------
+        water : Water
+            Its density and gravity count.
+        """
         return (self.mass_per_length - water.density * self.volume_per_length) * water.gravity
 
     @classmethod
     def from_properties(cls, properties: LineProperties, *, viscosity: float) -> BarType:
-        """Return the type of a catalogue entry (:func:`moyai.tables.lines.line_type`) with a viscosity [N s]."""
+        """Return the type of a catalogue entry (:func:`moyai.tables.lines.line_type`) with a viscosity [N s].
+
+        Parameters
+        ----------
+        properties : LineProperties
+            The entry.
+        viscosity : float
+            Tension over strain rate [N s].
+        """
         return cls(
             name=properties.name,
             mass_per_length=properties.mass_per_length,

@@ -22,7 +22,18 @@ class Current(Protocol):
     """Anything that knows the horizontal velocity over the height (the profiles of :mod:`moyai.sea.current`)."""
 
     def velocity(self, z: ArrayLike) -> Array:
-        """Return the velocity (..., 2) at heights z."""
+        """Return the velocity (..., 2) at heights z.
+
+        Parameters
+        ----------
+        z : array_like (...)
+            Heights above still water [m].
+
+        Returns
+        -------
+        ndarray (..., 2)
+            x, y in site axes [m/s].
+        """
 
 
 @checks_words
@@ -115,14 +126,36 @@ class Flow:
         return self.ramp / 50.0 if self.ramp > 0.0 else 0.1
 
     def growth(self, time: float) -> tuple[float, float]:
-        """Return the part of the flow that has grown at a time, and its rate [1/s]."""
+        """Return the part of the flow that has grown at a time, and its rate [1/s].
+
+        Parameters
+        ----------
+        time : float
+            [s].
+
+        Returns
+        -------
+        (float, float)
+            Share, 0 to 1 [-], and its rate [1/s].
+        """
         if self.ramp <= 0.0 or time >= self.ramp:
             return 1.0, 0.0
         angle = math.pi * max(time, 0.0) / self.ramp
         return 0.5 * (1.0 - math.cos(angle)), 0.5 * math.pi / self.ramp * math.sin(angle)
 
     def steady_velocity(self, position: Array) -> Array:
-        """Return what stands of the velocity at nodes (3, n) once it has grown: all but the waves, shape (3, n)."""
+        """Return what stands of the velocity at nodes (3, n) once it has grown: all but the waves, shape (3, n).
+
+        Parameters
+        ----------
+        position : ndarray (3, n)
+            x, y, z of the nodes, site axes [m].
+
+        Returns
+        -------
+        ndarray (3, n)
+            Site axes [m/s].
+        """
         out = np.repeat(np.asarray(self.velocity)[:, None], position.shape[1], axis=1)
         if self.current is not None:
             depth = self.waves.water.depth if self.waves is not None and self.waves.water is not None else math.inf

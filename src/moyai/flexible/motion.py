@@ -104,6 +104,11 @@ class Motion:
             range.
         duration, step, start : float
             Range and spacing [s]; about a two-hundredth of the shortest period keeps the table exact to 1e-8.
+
+        Raises
+        ------
+        InputError
+            For a duration or step that is not positive, or a function that returns another shape.
         """
         if not (0.0 < duration < math.inf and 0.0 < step < math.inf):
             raise InputError(
@@ -143,6 +148,12 @@ class Motion:
             Of each component [m, rad].
         period, duration, ramp, start : float
             [s].
+
+        Raises
+        ------
+        InputError
+            For a period or duration that is not positive, a negative ramp, or an amplitude or phase that is not three
+            numbers.
         """
         if not (0.0 < period < math.inf and 0.0 < duration < math.inf and 0.0 <= ramp < math.inf):
             raise InputError(
@@ -178,6 +189,11 @@ class Motion:
         step : float, optional
             Grid of the table; the shortest interval of the record when left out (then a uniform record keeps its
             points).
+
+        Raises
+        ------
+        InputError
+            For times that do not rise, displacements of another shape or not finite, or a step that is not positive.
         """
         from scipy.interpolate import CubicSpline
 
@@ -211,7 +227,18 @@ class Motion:
         return cls(float(given[0]), wanted, spline(grid), spline(grid, 1))
 
     def beginning(self, duration: float) -> Beginning:
-        """Return how a run over ``duration`` seconds from 0 s begins, with the mean period of the widest component."""
+        """Return how a run over ``duration`` seconds from 0 s begins, with the mean period of the widest component.
+
+        Parameters
+        ----------
+        duration : float
+            [s].
+
+        Raises
+        ------
+        InputError
+            When the run is not within the motion.
+        """
         time = np.linspace(0.0, duration, max(round(duration / self.step), 2) + 1)
         place, velocity = self.at(time)
         speed = np.linalg.norm(velocity, axis=1)
@@ -226,7 +253,13 @@ class Motion:
         return Beginning(away, begin, 2.0 * float(np.mean(np.diff(crossings))) if swings else math.nan)
 
     def grown(self, ramp: float) -> Motion:
-        """Return the motion that grows from nothing at 0 s to all of it at ``ramp``, by half a cosine."""
+        """Return the motion that grows from nothing at 0 s to all of it at ``ramp``, by half a cosine.
+
+        Parameters
+        ----------
+        ramp : float
+            Greater than 0 [s].
+        """
         time = self.start + self.step * np.arange(len(self.displacement))
         angle = math.pi * np.clip(time / ramp, 0.0, 1.0)[:, None]
         share, rate = 0.5 * (1.0 - np.cos(angle)), 0.5 * math.pi / ramp * np.sin(angle)
@@ -236,6 +269,16 @@ class Motion:
 
     def at(self, time: ArrayLike) -> tuple[Array, Array]:
         """Return displacement and velocity at any times of the range, shape (..., 3).
+
+        Parameters
+        ----------
+        time : array_like (...)
+            [s].
+
+        Returns
+        -------
+        tuple of ndarray (..., 3)
+            Displacement [m] and velocity [m/s].
 
         Raises
         ------

@@ -62,6 +62,11 @@ class Network:
     def strand(self, name: str) -> Strand:
         """Return the strand of this name.
 
+        Parameters
+        ----------
+        name : str
+            As it was built.
+
         Raises
         ------
         InputError
@@ -76,6 +81,11 @@ class Network:
 
     def point(self, name: str) -> int:
         """Return the node of a named point.
+
+        Parameters
+        ----------
+        name : str
+            As it was built.
 
         Raises
         ------
@@ -97,7 +107,7 @@ class Network:
 
     @property
     def node_volume(self) -> Array:
-        """Displaced volume of every node, wholly wet: what is attached, half of each bar, a third of each triangle."""
+        """Volume of every node, wholly wet: what is attached, half of each bar, a third of each triangle, (n,) [m3]."""
         half = 0.5 * self.bars.of_type("volume_per_length") * self.bars.length
         volume = np.array(self.nodes.volume)
         np.add.at(volume, self.bars.start, half)

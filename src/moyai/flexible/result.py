@@ -42,7 +42,15 @@ class State:
 
     @classmethod
     def at_rest(cls, network: Network, time: float = 0.0) -> State:
-        """Return the network as it was built, at rest."""
+        """Return the network as it was built, at rest.
+
+        Parameters
+        ----------
+        network : Network
+            Gives the places [m].
+        time : float
+            Of the state [s].
+        """
         return cls(time, np.array(network.nodes.position), np.zeros((len(network.nodes), 3)))
 
 
@@ -115,7 +123,18 @@ class History:
         return values
 
     def peak_at(self, bar: int) -> Array:
-        """Return the highest tension of one bar in every row [N]."""
+        """Return the highest tension of one bar in every row [N].
+
+        Parameters
+        ----------
+        bar : int
+            Number of the bar in the network.
+
+        Raises
+        ------
+        InputError
+            When the tensions of the bar were not kept.
+        """
         return self.tension_peak[:, self._column(bar)]
 
     def _column(self, bar: int) -> int:

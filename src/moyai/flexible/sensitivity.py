@@ -55,12 +55,12 @@ class PeakSensitivity:
 
     @property
     def discretisation_error(self) -> float:
-        """Relative change with step and mesh together, without viscosity."""
+        """Relative change with step and mesh together, without viscosity [-]."""
         return self._change(self.half_step) + self._change(self.double_mesh)
 
     @property
     def viscosity_effect(self) -> float:
-        """Largest relative change when the viscosity is halved or doubled."""
+        """Largest relative change when the viscosity is halved or doubled [-]."""
         return max(self._change(self.half_viscosity), self._change(self.double_viscosity))
 
     def _change(self, other: float) -> float:
@@ -70,7 +70,18 @@ class PeakSensitivity:
         return abs(other / self.peak - 1.0)
 
     def notices(self, limit: float = 0.02) -> tuple[Notice, ...]:
-        """Tell, with the other peaks, when the peak moves by more than ``limit`` with the discretisation."""
+        """Tell, with the other peaks, when the peak moves by more than ``limit`` with the discretisation.
+
+        Parameters
+        ----------
+        limit : float
+            Change over the peak that is passed over [-].
+
+        Returns
+        -------
+        tuple of Notice
+            Empty within the limit.
+        """
         if self.discretisation_error <= limit:
             return ()
 

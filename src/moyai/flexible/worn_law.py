@@ -77,7 +77,13 @@ class WornRope:
         return TRACE * float(self.new_tension[-1])
 
     def quick(self, mean: Array) -> Array:
-        """Return the stiffness of quick changes about mean tensions [N]."""
+        """Return the stiffness of quick changes about mean tensions, tension over strain (...) [N].
+
+        Parameters
+        ----------
+        mean : ndarray (...)
+            Mean tensions [N].
+        """
         return np.asarray(self.stiffness + self.growth * mean)
 
     def _ends(self, highest: Array) -> tuple[Array, Array]:
@@ -87,7 +93,15 @@ class WornRope:
         return np.asarray(top - highest / self.k1 if absolute else self.k1 * top), top
 
     def strain(self, mean: Array, highest: Array) -> Array:
-        """Return the strain at rest under mean tensions of ropes that have carried the highest ones."""
+        """Return the strain [-] at rest under mean tensions of ropes that have carried the highest ones.
+
+        Parameters
+        ----------
+        mean : ndarray (...)
+            Mean tensions [N].
+        highest : ndarray (...)
+            Highest mean tensions so far [N].
+        """
         left, top = self._ends(highest)
         part = np.clip(mean / np.maximum(highest, 1e-300), 0.0, 1.0)
         if self.form == "quadratic":
@@ -97,7 +111,15 @@ class WornRope:
         return np.where(mean < highest, left + (top - left) * part, np.interp(mean, self.new_tension, self.new_strain))
 
     def energy(self, mean: Array, highest: Array) -> Array:
-        """Return the area under the working curve up to mean tensions [N]."""
+        """Return the area under the working curve up to mean tensions [N].
+
+        Parameters
+        ----------
+        mean : ndarray (...)
+            Mean tensions [N].
+        highest : ndarray (...)
+            Highest mean tensions so far [N].
+        """
         left, top = self._ends(highest)
         part = (self.strain(mean, highest) - left) / np.maximum(top - left, 1e-300)
         if self.form == "linear":

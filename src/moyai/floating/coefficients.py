@@ -107,7 +107,13 @@ class Hydrodynamics:
 
     @classmethod
     def of_headings(cls, dataset: xr.Dataset) -> tuple[Hydrodynamics, ...]:
-        """Take a dataset of one metre apart by heading, each with its own radiation where the dataset gives it."""
+        """Take a dataset of one metre apart by heading, each with its own radiation where the dataset gives it.
+
+        Parameters
+        ----------
+        dataset : xarray.Dataset
+            As for :meth:`from_dataset`, with an axis ``wave_direction`` [rad].
+        """
         out = []
         for index in range(dataset.sizes["wave_direction"]):
             one = dataset.isel(wave_direction=[index])
@@ -122,7 +128,13 @@ class Hydrodynamics:
         return tuple(out)
 
     def scaled_to(self, length: float) -> Hydrodynamics:
-        """Return the coefficients of ``length`` [m] of structure; those of the far field stay."""
+        """Return the coefficients of ``length`` [m] of structure; those of the far field stay.
+
+        Parameters
+        ----------
+        length : float
+            Length of structure that the new forces refer to [m].
+        """
         factor = length / self.length
         infinite = self.infinite_frequency_added_mass
         return replace(

@@ -67,12 +67,31 @@ class LinearDamping:
 
     @classmethod
     def none(cls, size: int) -> LinearDamping:
-        """Return no damping for ``size`` modes."""
+        """Return no damping for ``size`` modes.
+
+        Parameters
+        ----------
+        size : int
+            Number of modes m.
+        """
         return cls(np.zeros((size, size)), np.zeros(size))
 
     @classmethod
     def of_modes(cls, *, linear: ArrayLike | None = None, critical_fraction: ArrayLike | None = None) -> LinearDamping:
-        """Return damping from one number a mode."""
+        """Return damping from one number a mode.
+
+        Parameters
+        ----------
+        linear : array_like (m,), optional
+            Damping of each mode [N s/m, N m s].
+        critical_fraction : array_like (m,), optional
+            Damping over the critical one of each mode, 0 or more [-]; added to ``linear``.
+
+        Raises
+        ------
+        InputError
+            When neither is given, or for a value that is not finite or a fraction that is negative.
+        """
         if linear is None and critical_fraction is None:
             raise InputError("neither linear damping nor a fraction of critical is given", parameter="damping")
         diagonal = np.zeros_like(np.asarray(critical_fraction, dtype=float)) if linear is None else linear
@@ -81,7 +100,17 @@ class LinearDamping:
         return cls(np.diag(diagonal), fraction)
 
     def at(self, inertia: Array, added_mass: Array, stiffness: Array) -> Array:
-        """Return the damping matrix (..., m, m) with added mass (..., m, m) and total restoring (m, m)."""
+        """Return the damping matrix (..., m, m) with added mass (..., m, m) and total restoring (m, m).
+
+        Parameters
+        ----------
+        inertia : ndarray (m, m)
+            Mass and moments of inertia [kg, kg m, kg m2].
+        added_mass : ndarray (..., m, m)
+            [kg, kg m, kg m2].
+        stiffness : ndarray (m, m)
+            Restoring of hydrostatics and mooring together [N/m, N, N m].
+        """
         diagonal = self.critical_fraction * critical_damping(inertia, added_mass, stiffness)
         return self.matrix + diagonal[..., :, None] * np.eye(diagonal.shape[-1])
 
@@ -127,13 +156,35 @@ class QuadraticDamping:
 
     @classmethod
     def of_modes(cls, coefficients: ArrayLike) -> QuadraticDamping:
-        """Return quadratic damping of single modes, one coefficient each (zero for none)."""
+        """Return quadratic damping of single modes, one coefficient each (zero for none).
+
+        Parameters
+        ----------
+        coefficients : array_like (m,)
+            Force over speed squared, 0 or more [N s2/m2, N m s2].
+
+        Raises
+        ------
+        InputError
+            For a coefficient that is negative or not finite.
+        """
         values = np.atleast_1d(np.asarray(coefficients, dtype=float))
         rows = np.flatnonzero(values)
         return cls(np.eye(len(values))[rows], values[rows])
 
     def force(self, velocity: Array) -> Array:
-        """Return the force (m,) at the velocities (m,)."""
+        """Return the force (m,) at the velocities (m,).
+
+        Parameters
+        ----------
+        velocity : ndarray (m,)
+            Of the modes [m/s, rad/s].
+
+        Returns
+        -------
+        ndarray (m,)
+            [N, N m].
+        """
         measure = self.directions @ velocity
         return -self.directions.T @ (self.coefficients * np.abs(measure) * measure)
 
@@ -145,16 +196,37 @@ class QuadraticDamping:
         """Return the linear damping (..., m, m) of equal work at amplitudes (..., k) of J_k v.
 
         Implements b = 8/(3 pi) c |J v| [eq:floating-equal-work].
+
+        Parameters
+        ----------
+        measure_amplitude : ndarray (..., k)
+            Amplitude of each measure J_k v [m/s, rad/s].
         """
         return self._assembled(8.0 / (3.0 * math.pi) * self.coefficients * measure_amplitude)
 
     def carried_regular(self, measure_amplitude: Array, water_motion: ComplexArray) -> ComplexArray:
-        """Return the force (..., m) of water that moves by (..., k) in the measures, equivalent as in regular waves."""
+        """Return the force (..., m) of water that moves by (..., k) in the measures, equivalent as in regular waves.
+
+        Parameters
+        ----------
+        measure_amplitude : ndarray (..., k)
+            Amplitude of each measure of the relative velocity [m/s, rad/s].
+        water_motion : ndarray of complex (..., k)
+            Velocity of the water in each measure [m/s, rad/s].
+        """
         equivalent = 8.0 / (3.0 * math.pi) * self.coefficients * measure_amplitude
         return np.asarray((equivalent * water_motion) @ self.directions)
 
     def carried_irregular(self, measure_deviation: Array, water_motion: ComplexArray) -> ComplexArray:
-        """Return the force (..., m) of water that moves by (..., k) in the measures, equivalent as in a sea."""
+        """Return the force (..., m) of water that moves by (..., k) in the measures, equivalent as in a sea.
+
+        Parameters
+        ----------
+        measure_deviation : ndarray (..., k)
+            Standard deviation of each measure of the relative velocity [m/s, rad/s].
+        water_motion : ndarray of complex (..., k)
+            Velocity of the water in each measure [m/s, rad/s].
+        """
         equivalent = math.sqrt(8.0 / math.pi) * self.coefficients * measure_deviation
         return np.asarray((equivalent * water_motion) @ self.directions)
 
@@ -162,5 +234,10 @@ class QuadraticDamping:
         """Return the linear damping (..., m, m) of least error at Gaussian standard deviations (..., k) of J_k v.
 
         Implements b = sqrt(8/pi) c sigma [eq:floating-stochastic].
+
+        Parameters
+        ----------
+        measure_deviation : ndarray (..., k)
+            Standard deviation of each measure J_k v [m/s, rad/s].
         """
         return self._assembled(math.sqrt(8.0 / math.pi) * self.coefficients * measure_deviation)

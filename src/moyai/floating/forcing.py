@@ -41,10 +41,29 @@ class Forcing(Protocol):
         """Longest step that resolves the waves [s]; ``inf`` for steady forces."""
 
     def fitted_step(self, time_step: float) -> float:
-        """Return a step not longer than ``time_step`` [s] that suits the forcing."""
+        """Return a step not longer than ``time_step`` [s] that suits the forcing.
+
+        Parameters
+        ----------
+        time_step : float
+            Longest step that is wanted [s].
+        """
 
     def sample(self, step: float, count: int) -> tuple[Array, Array]:
-        """Return forces (count, m) and surface elevation (count,) at times ``step * arange(count)``."""
+        """Return forces (count, m) and surface elevation (count,) at times ``step * arange(count)``.
+
+        Parameters
+        ----------
+        step : float
+            Distance of the samples [s].
+        count : int
+            Number of samples.
+
+        Returns
+        -------
+        tuple of ndarray (count, m) and (count,)
+            Forces of the modes [N, N m] and surface elevation at x = 0 [m].
+        """
 
 
 def cosine_ramp(time: ArrayLike, duration: float) -> Array:
@@ -126,7 +145,7 @@ class RegularForcing:
 
     @property
     def shortest_period(self) -> float:
-        """The wave period, half of it when the drift pulsates."""
+        """The wave period, half of it when the drift pulsates [s]."""
         period = 2.0 * math.pi / self.omega
         return 0.5 * period if self.drift_law == "pulsating" and np.any(self.mean_drift) else period
 
@@ -136,12 +155,31 @@ class RegularForcing:
         return self.shortest_period / STEPS_PER_PERIOD
 
     def fitted_step(self, time_step: float) -> float:
-        """Return the longest step that divides the period."""
+        """Return the longest step up to ``time_step`` that divides the period [s].
+
+        Parameters
+        ----------
+        time_step : float
+            Longest step that is wanted [s].
+        """
         period = 2.0 * math.pi / self.omega
         return period / math.ceil(period / time_step - 1e-9)
 
     def sample(self, step: float, count: int) -> tuple[Array, Array]:
-        """Return forces and the incident surface at x = 0."""
+        """Return forces and the incident surface at x = 0.
+
+        Parameters
+        ----------
+        step : float
+            Distance of the samples, which begin at 0 s [s].
+        count : int
+            Number of samples.
+
+        Returns
+        -------
+        tuple of ndarray (count, m) and (count,)
+            Forces of the modes [N, N m] and surface elevation at x = 0 [m].
+        """
         time = step * np.arange(count)
         shape = cosine_ramp(time, self.ramp)
         carrier = self.wave_amplitude * np.exp(-1j * self.omega * time)
@@ -236,6 +274,11 @@ class IrregularForcing:
             Wind and current [N, N, N m].
         drift_law, ramp
             As for the class.
+
+        Raises
+        ------
+        InputError
+            When the sea holds no energy, the drift is not finite, or a heading lies outside the computed ones.
         """
         size = hydrodynamics.size
         amplitude = sea.complex_amplitude
@@ -263,7 +306,7 @@ class IrregularForcing:
 
     @property
     def shortest_period(self) -> float:
-        """Period below which less than ``1 - energy_share`` of the wave energy lies."""
+        """Period below which less than ``1 - energy_share`` of the wave energy lies [s]."""
         order = np.argsort(self.omega)
         energy = np.cumsum(np.abs(self.amplitude[order]) ** 2)
         last = int(np.searchsorted(energy, self.energy_share * energy[-1]))
@@ -290,7 +333,13 @@ class IrregularForcing:
         return 2.0 * math.pi * float(np.sum(np.round(multiples)) / np.sum(self.omega))
 
     def fitted_step(self, time_step: float) -> float:
-        """Return a step that divides the repeat period into a number that Fourier transforms like."""
+        """Return a step [s] that divides the repeat period into a number that Fourier transforms like.
+
+        Parameters
+        ----------
+        time_step : float
+            Longest step that is wanted [s]; returned as it is for a sea that does not repeat.
+        """
         repeat = self.repeat_period
         if math.isinf(repeat):
             return time_step
@@ -305,7 +354,20 @@ class IrregularForcing:
         return np.asarray(np.abs(self.amplitude) ** 2 @ self.drift, dtype=float)
 
     def sample(self, step: float, count: int) -> tuple[Array, Array]:
-        """Return forces and the incident surface at x = 0."""
+        """Return forces and the incident surface at x = 0.
+
+        Parameters
+        ----------
+        step : float
+            Distance of the samples, which begin at 0 s [s].
+        count : int
+            Number of samples.
+
+        Returns
+        -------
+        tuple of ndarray (count, m) and (count,)
+            Forces of the modes [N, N m] and surface elevation at x = 0 [m].
+        """
         modes = self.excitation_force.shape[1]
         rows = [self.amplitude[:, None], self.amplitude[:, None] * self.excitation_force]
         slow = self.drift is not None and self.drift_law in ("newman", "newman_product")

@@ -48,7 +48,7 @@ class Motions:
 
     @property
     def velocity(self) -> ComplexArray:
-        """Complex velocities per unit wave amplitude, ``-i omega X``."""
+        """Complex velocities per unit wave amplitude, ``-i omega X`` [1/s, rad/(m s)]."""
         return -1j * self.omega[:, None, None] * self.displacement
 
 

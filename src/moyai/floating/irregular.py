@@ -52,6 +52,16 @@ class ResponseStatistics:
 
         Rayleigh statistics of a narrow-banded response [eq:floating-extreme]; zero where fewer than one cycle falls
         into the duration.
+
+        Parameters
+        ----------
+        duration : float
+            Of the sea state [s].
+
+        Returns
+        -------
+        float or ndarray
+            In the unit and shape of the standard deviation.
         """
         with np.errstate(divide="ignore", invalid="ignore"):
             cycles = duration / self.mean_zero_crossing_period

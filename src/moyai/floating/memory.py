@@ -66,14 +66,26 @@ class StateSpaceMemory:
         return int(self.dashpot.shape[0])
 
     def kernel(self, time: ArrayLike) -> Array:
-        """Return K(t) (n, m, m) of the states, without the dashpot."""
+        """Return K(t) (n, m, m) of the states, without the dashpot.
+
+        Parameters
+        ----------
+        time : array_like (n,)
+            [s].
+        """
         instants = np.atleast_1d(np.asarray(time, dtype=float))
         growth = np.exp(self.poles[None, :] * instants[:, None])
         values: Array = np.einsum("ik,tk,kj->tij", self.outputs, growth, self.inputs).real
         return values
 
     def transfer(self, omega: ArrayLike) -> ComplexArray:
-        """Return ``int K exp(i omega t) dt + dashpot`` = B - i omega (A - A_inf), (n, m, m)."""
+        """Return ``int K exp(i omega t) dt + dashpot`` = B - i omega (A - A_inf), (n, m, m).
+
+        Parameters
+        ----------
+        omega : array_like (n,)
+            [rad/s].
+        """
         w = np.atleast_1d(np.asarray(omega, dtype=float))
         # The real kernel holds both partners of a complex pole; outputs carry the factor 2 of the pair
         first = np.einsum("ik,tk,kj->tij", self.outputs, 1.0 / (-1j * w[:, None] - self.poles), self.inputs)
@@ -98,7 +110,13 @@ class StateSpaceMemory:
 
     @classmethod
     def none(cls, size: int) -> StateSpaceMemory:
-        """Return no memory."""
+        """Return no memory.
+
+        Parameters
+        ----------
+        size : int
+            Number of modes m.
+        """
         return cls(
             np.zeros(0, np.complex128),
             np.zeros((0, size), np.complex128),
@@ -130,6 +148,19 @@ class StateSpaceMemory:
         cls, a: ArrayLike, b: ArrayLike, c: ArrayLike, feedthrough: ArrayLike | None = None, tolerance: float = 1e-6
     ) -> StateSpaceMemory:
         """Diagonalise a real model ``z' = a z + b v``, ``F = -(c z + feedthrough v)``.
+
+        Parameters
+        ----------
+        a : array_like (n, n)
+            System matrix [1/s].
+        b : array_like (n, m)
+            From velocities of the modes to states.
+        c : array_like (m, n)
+            From states to forces of the modes.
+        feedthrough : array_like (m, m), optional
+            Force over velocity that acts at once, a dashpot [N s/m, N m s]; none when left out.
+        tolerance : float
+            Error of the kernel at 0 s over its size that is accepted [-].
 
         Raises
         ------

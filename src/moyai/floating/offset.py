@@ -19,10 +19,32 @@ class Mooring(Protocol):
     """What the loop needs of the lines; positions are relative to the rest position, in the modes of the body."""
 
     def force(self, position: Array) -> Array:
-        """Return the force (m,) of all lines on the body at the position (m,)."""
+        """Return the force (m,) of all lines on the body at the position (m,).
+
+        Parameters
+        ----------
+        position : ndarray (m,)
+            Displacement of the modes from rest [m, rad].
+
+        Returns
+        -------
+        ndarray (m,)
+            [N, N m].
+        """
 
     def stiffness(self, position: Array) -> Array:
-        """Return the tangent (m, m), minus the derivative of the force."""
+        """Return the tangent (m, m), minus the derivative of the force.
+
+        Parameters
+        ----------
+        position : ndarray (m,)
+            Displacement of the modes from rest [m, rad].
+
+        Returns
+        -------
+        ndarray (m, m)
+            [N/m, N, N m].
+        """
 
 
 @dataclass(frozen=True)
@@ -41,11 +63,23 @@ class LinearMooring:
     matrix: Array
 
     def force(self, position: Array) -> Array:
-        """Return minus stiffness times position."""
+        """Return minus stiffness times position, (m,) [N, N m].
+
+        Parameters
+        ----------
+        position : ndarray (m,)
+            Displacement of the modes from rest [m, rad].
+        """
         return -self.matrix @ position
 
     def stiffness(self, position: Array) -> Array:
-        """Return the constant stiffness."""
+        """Return the constant stiffness, (m, m) [N/m, N, N m].
+
+        Parameters
+        ----------
+        position : ndarray (m,)
+            Plays no part.
+        """
         return self.matrix
 
 

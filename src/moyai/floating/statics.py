@@ -42,7 +42,15 @@ class HullLike(Protocol):
     """What statics need of a hull."""
 
     def immersed(self, draught: float, heel: float = 0.0) -> SectionLike:
-        """Return the section at a depth of the keel origin [m], turned about it by ``heel`` [rad]."""
+        """Return the section at a depth of the keel origin [m], turned about it by ``heel`` [rad].
+
+        Parameters
+        ----------
+        draught : float
+            Depth of the keel origin under still water [m].
+        heel : float
+            Turn about the keel origin [rad].
+        """
 
 
 _OWN_FRAME = "give the hull in its own frame, before it is set into the water"
@@ -74,7 +82,15 @@ class Hydrostatics:
     reserve: float
 
     def imbalance(self, vertical_pull: float = 0.0, *, gravity: float) -> float:
-        """Return displacement less weight and downward line pull [N], in per cent of the displacement."""
+        """Return displacement less weight and downward line pull [N], in per cent of the displacement.
+
+        Parameters
+        ----------
+        vertical_pull : float
+            Of all lines, positive downwards [N].
+        gravity : float
+            [m/s2].
+        """
         displacement = self.displaced_mass * gravity
         return 100.0 * (self.reserve - vertical_pull) / displacement
 

@@ -35,6 +35,11 @@ class MoorDynOutput:
     def channel(self, name: str) -> Array:
         """Return one channel in SI units, its name in any case of letters.
 
+        Parameters
+        ----------
+        name : str
+            As in the header of the file.
+
         Raises
         ------
         InputError

@@ -73,7 +73,7 @@ class AnchorCheck:
 
     @property
     def utilisation(self) -> float:
-        """The larger of both."""
+        """The larger of both [-]."""
         return max(self.sliding, self.lifting)
 
     @property

@@ -49,7 +49,17 @@ class LineType:
 
     @classmethod
     def from_properties(cls, properties: LineProperties, density: float, gravity: float) -> LineType:
-        """Make a line type of a catalogue entry for water of ``density`` [kg/m3] under ``gravity`` [m/s2]."""
+        """Make a line type of a catalogue entry for water of ``density`` [kg/m3] under ``gravity`` [m/s2].
+
+        Parameters
+        ----------
+        properties : LineProperties
+            The entry.
+        density : float
+            Of the water [kg/m3].
+        gravity : float
+            [m/s2].
+        """
         return cls(
             properties.name,
             properties.submerged_weight_per_length(density, gravity),
@@ -235,7 +245,7 @@ class Line:
 
     @cached_property
     def table(self) -> Array:
-        """One row a segment for the kernels: length, EA, submerged weight, clump at its upper end."""
+        """One row a segment for the kernels: length [m], EA [N], submerged weight [N/m], clump at its upper end [N]."""
         rows = np.zeros((len(self.segments), 4))
         for row, segment in zip(rows, self.segments):
             row[:3] = segment.length, segment.line_type.axial_stiffness, segment.line_type.submerged_weight
@@ -260,6 +270,11 @@ class Line:
     def bed_clearance(self, water_depth: float) -> float:
         """Return the height of the anchor over the bed [m]; -1 (no bed) in infinite depth.
 
+        Parameters
+        ----------
+        water_depth : float
+            [m]; infinite where there is no bed.
+
         Raises
         ------
         InputError
@@ -281,11 +296,23 @@ class Line:
     def solve_plane(self, horizontal: Array, vertical: Array, water_depth: float) -> tuple[Array, IntArray]:
         """Solve in the line's own vertical plane for distances (n,) from anchor to fairlead [m].
 
+        Parameters
+        ----------
+        horizontal, vertical : ndarray (n,)
+            From anchor to fairlead, vertical positive upwards [m].
+        water_depth : float
+            [m].
+
         Returns
         -------
         tuple
             Array (n, 11): H fairlead, V fairlead, H anchor, V anchor, grounded length, dH/dX, dH/dZ, dV/dX, dV/dZ,
             residual over length, q (vertical tension at the anchor or minus the bed reaction); and regimes (n,).
+
+        Raises
+        ------
+        InputError
+            When the anchor lies under the bed.
         """
         rows = self.table
         clearance = self.bed_clearance(water_depth)
@@ -301,7 +328,20 @@ class Line:
         return out, regime
 
     def solve(self, points: Array, water_depth: float) -> LineState:
-        """Solve for fairlead positions (n, 3) [m], site axes; see :class:`LineState`."""
+        """Solve for fairlead positions (n, 3) [m], site axes; see :class:`LineState`.
+
+        Parameters
+        ----------
+        points : array_like (n, 3)
+            Fairlead positions in site axes [m].
+        water_depth : float
+            [m].
+
+        Raises
+        ------
+        InputError
+            When the anchor lies under the bed.
+        """
         span = np.asarray(points, dtype=float).reshape(-1, 3) - np.asarray(self.anchor)
         out, regime = self.solve_plane(np.hypot(span[:, 0], span[:, 1]), span[:, 2], water_depth)
         force, stiffness = np.empty((len(span), 3)), np.empty((len(span), 3, 3))
@@ -370,7 +410,15 @@ class SpringLine:
         return math.dist(self.anchor, self.fairlead) - self.pretension / self.stiffness
 
     def solve(self, points: Array, water_depth: float) -> LineState:
-        """Solve for fairlead positions (n, 3) [m], site axes; the water depth plays no part."""
+        """Solve for fairlead positions (n, 3) [m], site axes; the water depth plays no part.
+
+        Parameters
+        ----------
+        points : array_like (n, 3)
+            Fairlead positions in site axes [m].
+        water_depth : float
+            Plays no part [m].
+        """
         span = np.asarray(points, dtype=float).reshape(-1, 3) - np.asarray(self.anchor)
         length = np.maximum(np.linalg.norm(span, axis=1), 1e-300)
         unit = span / length[:, None]

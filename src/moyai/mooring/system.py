@@ -99,14 +99,36 @@ class LineSystem:
         return tuple(line.name for line in self.lines)
 
     def fairleads(self, position: ArrayLike) -> Array:
-        """Return fairlead positions (..., lines, 3) [m] in site axes for body positions (..., 6)."""
+        """Return fairlead positions (..., lines, 3) [m] in site axes for body positions (..., 6).
+
+        Parameters
+        ----------
+        position : array_like (..., 6)
+            x, y, z [m], roll, pitch, yaw [rad] of the body, site axes.
+
+        Raises
+        ------
+        InputError
+            For a position of another shape, or not finite.
+        """
         position = _positions(position)
         rotation = rotation_matrix(position[..., 3:])
         values: Array = position[..., None, :3] + np.einsum("...ij,lj->...li", rotation, self._arms)
         return values
 
     def states(self, position: ArrayLike) -> dict[str, LineState]:
-        """Solve every line for body positions (n, 6) or (6,); arrays of the states have a leading axis n."""
+        """Solve every line for body positions (n, 6) or (6,); arrays of the states have a leading axis n.
+
+        Parameters
+        ----------
+        position : array_like (n, 6) or (6,)
+            x, y, z [m], roll, pitch, yaw [rad] of the body, site axes.
+
+        Raises
+        ------
+        InputError
+            For a position of another shape, or not finite.
+        """
         points = self.fairleads(np.atleast_2d(_positions(position)))
         return {line.name: line.solve(points[:, i], self.water_depth) for i, line in enumerate(self.lines)}
 
@@ -124,7 +146,18 @@ class LineSystem:
         return self._assemble(position.reshape(-1, 6), about, False)[0].reshape(position.shape)
 
     def tensions(self, position: ArrayLike) -> Array:
-        """Return fairlead tensions (..., lines) [N] of one copy of every line."""
+        """Return fairlead tensions (..., lines) [N] of one copy of every line.
+
+        Parameters
+        ----------
+        position : array_like (..., 6)
+            x, y, z [m], roll, pitch, yaw [rad] of the body, site axes.
+
+        Raises
+        ------
+        InputError
+            For a position of another shape, or not finite.
+        """
         position = _positions(position)
         states = self.states(position.reshape(-1, 6)).values()
         columns = [state.tension_fairlead for state in states]
@@ -138,6 +171,23 @@ class LineSystem:
         small rotation vector, both in site axes. It holds the exact stiffness of every line and the moment of the
         turning lever; with frictionless lines it is symmetric wherever the total moment vanishes (and in its
         translational part everywhere).
+
+        Parameters
+        ----------
+        position : array_like (..., 6)
+            x, y, z [m], roll, pitch, yaw [rad] of the body, site axes.
+        about : (float, float, float)
+            Point that moments are about, in body axes [m].
+
+        Returns
+        -------
+        ndarray (..., 6, 6)
+            [N/m, N, N m].
+
+        Raises
+        ------
+        InputError
+            For a position of another shape, or not finite.
         """
         position = _positions(position)
         return self._assemble(position.reshape(-1, 6), about, True)[1].reshape(*position.shape[:-1], 6, 6)
@@ -145,7 +195,22 @@ class LineSystem:
     def restoring_curve(
         self, direction: str | ArrayLike, offsets: ArrayLike, position: ArrayLike = (0.0,) * 6
     ) -> RestoringCurve:
-        """Move the body along ``direction`` (a name of :data:`DEGREES_OF_FREEDOM` or 6 numbers) from ``position``."""
+        """Move the body along ``direction`` (a name of :data:`DEGREES_OF_FREEDOM` or 6 numbers) from ``position``.
+
+        Parameters
+        ----------
+        direction : str or array_like (6,)
+            Surge, sway ..., or the displacement per unit of offset.
+        offsets : array_like (n,)
+            Along ``direction`` [m or rad].
+        position : array_like (6,)
+            Where the offset is zero, site axes [m, rad].
+
+        Raises
+        ------
+        InputError
+            For an unknown direction, or a position of another shape or not finite.
+        """
         unit = direction_vector(direction, DEGREES_OF_FREEDOM)
         steps = np.atleast_1d(np.asarray(offsets, dtype=float))
         path = _positions(position) + steps[:, None] * unit

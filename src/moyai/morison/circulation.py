@@ -108,7 +108,13 @@ class CirculationLaw:
         return self.purpose == "response"
 
     def gamma(self, beta: float = math.nan) -> float:
-        """Return gamma at a frequency parameter beta = B^2 f / nu (end values are kept outside the table)."""
+        """Return gamma at a frequency parameter beta = B^2 f / nu (end values are kept outside the table).
+
+        Parameters
+        ----------
+        beta : float
+            Frequency parameter [-]; without it the strength of the law holds.
+        """
         if self.beta_table and math.isfinite(beta):
             rows = np.asarray(self.beta_table)
             return float(np.interp(math.log(beta), np.log(rows[:, 0]), rows[:, 1]))
@@ -116,7 +122,7 @@ class CirculationLaw:
 
     @property
     def largest(self) -> float:
-        """Largest Keulegan-Carpenter number for which the law or the table speaks."""
+        """Largest Keulegan-Carpenter number for which the law or the table speaks [-]."""
         return max(HELD_LIMIT, self.table[-1][0]) if self.table else HELD_LIMIT
 
     def share(self, keulegan_carpenter: ArrayLike, breadth: float, area: float, gamma: float) -> Array:
@@ -124,6 +130,17 @@ class CirculationLaw:
 
         One up to KC = 2; then the reduction of C_M keeps its value of KC = 2 up to KC = 3; beyond it nothing is
         counted, which is the safe side, unless the user's table speaks [eq:circulation-share].
+
+        Parameters
+        ----------
+        keulegan_carpenter : array_like (...)
+            [-].
+        breadth : float
+            Of the section [m].
+        area : float
+            Of the section [m2].
+        gamma : float
+            Strength of the circulation [-].
         """
         number = np.asarray(keulegan_carpenter, dtype=float)
         square = np.maximum(number, 1e-12) ** 2
@@ -140,6 +157,17 @@ class CirculationLaw:
         """Return the gamma that is counted at a Keulegan-Carpenter number: the law's by its share, or the table's.
 
         Unlike :meth:`share` it also knows the table of a law whose own strength is zero.
+
+        Parameters
+        ----------
+        keulegan_carpenter : array_like (...)
+            [-].
+        breadth : float
+            Of the section [m].
+        area : float
+            Of the section [m2].
+        gamma : float
+            Strength of the law [-].
         """
         number = np.asarray(keulegan_carpenter, dtype=float)
         if gamma > 0.0 or not self.table:
@@ -150,7 +178,19 @@ class CirculationLaw:
         return np.asarray(np.where(inside, self.share(number, breadth, area, 1.0), 0.0))
 
     def reduction(self, keulegan_carpenter: ArrayLike, breadth: float, area: float, gamma: float) -> Array:
-        """Return the fall of C_M in a circular orbit, gamma KC^2 B^2 / (2 pi A) with the gamma that is counted."""
+        """Return the fall of C_M in a circular orbit, gamma KC^2 B^2 / (2 pi A) with the gamma that is counted.
+
+        Parameters
+        ----------
+        keulegan_carpenter : array_like (...)
+            [-].
+        breadth : float
+            Of the section [m].
+        area : float
+            Of the section [m2].
+        gamma : float
+            Strength of the law [-].
+        """
         number = np.asarray(keulegan_carpenter, dtype=float)
         counted = self.strength_at(number, breadth, area, gamma)
         return np.asarray(counted * number**2 * breadth**2 / (2.0 * math.pi * area))

@@ -101,7 +101,17 @@ class KeuleganCarpenterTable:
             raise InputError("KC does not rise in a table of coefficients", parameter="table", allowed="rising rows")
 
     def at(self, keulegan_carpenter: float, name: str, notices: list[Notice]) -> Array:
-        """Return both coefficients at a KC; outside the table its end values, with a notice."""
+        """Return both coefficients at a KC; outside the table its end values, with a notice.
+
+        Parameters
+        ----------
+        keulegan_carpenter : float
+            [-]; infinite in steady flow.
+        name : str
+            What a notice calls the table.
+        notices : list of Notice
+            A notice is added to it.
+        """
         values = np.asarray(self.rows, dtype=float)
         low, high = float(values[0, 0]), float(values[-1, 0])
         if not low <= keulegan_carpenter <= high:
@@ -149,6 +159,13 @@ class CoefficientRule:
 
     def at(self, section: MemberSection, flow: Conditions) -> StripCoefficients:
         """Return the coefficients of a section in a flow.
+
+        Parameters
+        ----------
+        section : MemberSection
+            Turned as it lies in the flow.
+        flow : Conditions
+            Of the strip.
 
         Raises
         ------

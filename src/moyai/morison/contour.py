@@ -108,14 +108,30 @@ class Contour:
         return np.asarray(4.0 * np.arctan(np.asarray(self.bulges)))
 
     def positions(self, edge: NDArray[np.int64], t: Array) -> ComplexArray:
-        """Return points on edges at fractions of their length."""
+        """Return points on edges at fractions of their length, x + i z (...) [m].
+
+        Parameters
+        ----------
+        edge : ndarray of int (...)
+            Number of the edge, by the corner that it leaves.
+        t : ndarray (...)
+            0 to 1 [-].
+        """
         start, end = self.corners[edge], np.roll(self.corners, -1)[edge]
         half = 0.5 * self.sweeps[edge]
         ratio = t * np.sinc(half * t / np.pi) / np.sinc(half / np.pi)
         return np.asarray(start + (end - start) * ratio * np.exp(1j * half * (t - 1.0)))
 
     def slopes(self, edge: NDArray[np.int64], t: Array) -> ComplexArray:
-        """Return the derivative of :meth:`positions` with respect to ``t``."""
+        """Return the derivative of :meth:`positions` with respect to ``t``, x + i z (...) [m].
+
+        Parameters
+        ----------
+        edge : ndarray of int (...)
+            Number of the edge, by the corner that it leaves.
+        t : ndarray (...)
+            0 to 1 [-].
+        """
         start, end = self.corners[edge], np.roll(self.corners, -1)[edge]
         half = 0.5 * self.sweeps[edge]
         return np.asarray((end - start) / np.sinc(half / np.pi) * np.exp(1j * half * (2.0 * t - 1.0)))
@@ -127,7 +143,13 @@ class Contour:
         return np.asarray(np.abs(self.slopes(edge, np.zeros(edge.size))))
 
     def polyline(self, largest_turn: float = math.radians(5.0)) -> ComplexArray:
-        """Return points along the contour; chords of arcs turn at most ``largest_turn`` [rad]."""
+        """Return points along the contour, x + i z [m]; chords of arcs turn at most ``largest_turn``.
+
+        Parameters
+        ----------
+        largest_turn : float
+            [rad].
+        """
         pieces = []
         for edge, sweep in enumerate(self.sweeps):
             count = max(1, math.ceil(abs(sweep) / largest_turn))
@@ -168,7 +190,13 @@ class Contour:
         )  # fmt: skip
 
     def turned(self, angle: float) -> Contour:
-        """Return the contour turned counter-clockwise by ``angle`` [rad] about the origin."""
+        """Return the contour turned counter-clockwise by ``angle`` [rad] about the origin.
+
+        Parameters
+        ----------
+        angle : float
+            [rad].
+        """
         if angle == 0.0:
             return self
         c, s = math.cos(angle), math.sin(angle)

@@ -25,7 +25,7 @@ class StripForces:
 
     @property
     def total(self) -> Array:
-        """Their sum."""
+        """Their sum, (..., 2) [N/m]."""
         return np.asarray(self.inertia + self.drag + self.magnus)
 
 

@@ -41,12 +41,12 @@ class InertiaCoefficients:
 
     @property
     def added_mass(self) -> Array:
-        """Added mass over displaced mass, C_M - I."""
+        """Added mass over displaced mass, C_M - I [-]."""
         return np.asarray(self.tensor - np.eye(2))
 
     @property
     def principal(self) -> tuple[float, float]:
-        """Smallest and largest principal inertia coefficient."""
+        """Smallest and largest principal inertia coefficient [-]."""
         values = np.linalg.eigvalsh(self.tensor)
         return float(values[0]), float(values[1])
 

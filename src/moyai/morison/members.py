@@ -63,7 +63,7 @@ class StraightMember:
 
     @cached_property
     def axes(self) -> Array:
-        """Unit vectors (3, 3): first axis, second axis, member axis.
+        """Unit vectors (3, 3): first axis, second axis, member axis, in site axes [-].
 
         The second axis is the direction across the member closest to upwards; the first one is horizontal and leans
         towards +x (towards +y for a member along x). An upright member has its first axis along +x, the second along
@@ -87,7 +87,18 @@ class StraightMember:
         return self.section.turned(self.section_angle)
 
     def strips(self, count: int) -> Strips:
-        """Cut the member into equal strips."""
+        """Cut the member into equal strips.
+
+        Parameters
+        ----------
+        count : int
+            At least 1.
+
+        Raises
+        ------
+        InputError
+            For fewer than one strip.
+        """
         if count < 1:
             raise InputError(f"{count} strips", parameter="strips", allowed="at least 1")
         share = (np.arange(count) + 0.5) / count
@@ -109,7 +120,13 @@ class StraightMember:
         return rise * low, rise * high
 
     def shifted(self, height: float) -> StraightMember:
-        """Return the member moved upwards by ``height`` [m]."""
+        """Return the member moved upwards by ``height`` [m].
+
+        Parameters
+        ----------
+        height : float
+            Positive upwards [m].
+        """
         return StraightMember(
             (self.start[0], self.start[1], self.start[2] + height),
             (self.end[0], self.end[1], self.end[2] + height),

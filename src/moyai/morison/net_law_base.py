@@ -53,11 +53,27 @@ class NetLaw(ABC):
         """Return drag and lift for angles of 0 to pi/2 and speeds of the same shape."""
 
     def reynolds(self, speed: ArrayLike, net: Net, kinematic_viscosity: float) -> Array:
-        """Return the Reynolds number that the law is for."""
+        """Return the Reynolds number (...) that the law is for [-].
+
+        Parameters
+        ----------
+        speed : array_like (...)
+            Of the water towards the panel [m/s].
+        net : Net
+            Twine and mesh.
+        kinematic_viscosity : float
+            [m2/s].
+        """
         return np.asarray(speed, dtype=float) * net.twine_diameter / kinematic_viscosity
 
     def range_solidity(self, net: Net) -> float:
-        """Return the solidity that the law is for."""
+        """Return the solidity that the law is for [-].
+
+        Parameters
+        ----------
+        net : Net
+            Twine and mesh.
+        """
         return net.solidity
 
     def coefficients(

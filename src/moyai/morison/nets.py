@@ -71,12 +71,42 @@ class Net:
     def from_aperture(
         cls, twine_diameter: float, aperture: float, *, solidity_listed: float | None = None, knotted: bool = False
     ) -> Net:
-        """Return a net from twine diameter and clear aperture [m]."""
+        """Return a net from twine diameter and clear aperture [m].
+
+        Parameters
+        ----------
+        twine_diameter : float
+            [m].
+        aperture : float
+            Clear width between twines [m].
+        solidity_listed : float, optional
+            As the maker gives it [-].
+        knotted : bool
+            Whether the twines are knotted.
+
+        Raises
+        ------
+        InputError
+            For sizes of which no net can be made.
+        """
         return cls(twine_diameter, twine_diameter + aperture, solidity_listed, knotted)
 
     @classmethod
     def from_solidity(cls, twine_diameter: float, solidity: float) -> Net:
-        """Return the knotless net of a geometric solidity [-], its pitch found from it [m]."""
+        """Return the knotless net of a geometric solidity [-], its pitch found from it [m].
+
+        Parameters
+        ----------
+        twine_diameter : float
+            [m].
+        solidity : float
+            Between 0 and 1 [-].
+
+        Raises
+        ------
+        InputError
+            For a solidity that is not between 0 and 1.
+        """
         if not (math.isfinite(solidity) and 0.0 < solidity < 1.0):
             raise InputError(f"solidity is {solidity:g}", parameter="solidity", allowed="between 0 and 1")
         return cls(twine_diameter, twine_diameter / (1.0 - math.sqrt(1.0 - solidity)))
@@ -94,7 +124,7 @@ class Net:
 
     @property
     def solidity(self) -> float:
-        """Solidity that modern laws use: the measured one where there is one, else that of the geometry."""
+        """Solidity that modern laws use [-]: the measured one where there is one, else that of the geometry."""
         return self.solidity_geometric if self.solidity_measured is None else self.solidity_measured
 
     @property
@@ -104,7 +134,7 @@ class Net:
 
     @property
     def listed(self) -> float:
-        """The listed solidity, 2 d / p where none is listed."""
+        """The listed solidity, 2 d / p where none is listed [-]."""
         return self.solidity_doubled if self.solidity_listed is None else self.solidity_listed
 
     @property

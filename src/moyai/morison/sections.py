@@ -66,7 +66,13 @@ class MemberSection:
         return inertia_coefficients(self.contour)
 
     def turned(self, angle: float) -> MemberSection:
-        """Return the section turned counter-clockwise by ``angle`` [rad] (from the first to the second axis)."""
+        """Return the section turned counter-clockwise by ``angle`` [rad] (from the first to the second axis).
+
+        Parameters
+        ----------
+        angle : float
+            [rad].
+        """
         return MemberSection(self.contour.turned(angle), self.name)
 
 

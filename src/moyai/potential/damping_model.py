@@ -44,7 +44,13 @@ class DampingModel:
         return int(self.steady.shape[0])
 
     def damping(self, omega: ArrayLike) -> Array:
-        """Return the damping (k, m, m) at any frequencies [rad/s]."""
+        """Return the damping (k, m, m) at any frequencies [rad/s].
+
+        Parameters
+        ----------
+        omega : array_like (k,)
+            Frequencies [rad/s]; the sign does not matter.
+        """
         x = np.abs(np.atleast_1d(np.asarray(omega, dtype=float)))
         inside = np.minimum(x, self.knots[-1])
         # scipy.interpolate.PPoly wants the highest power first
@@ -57,7 +63,18 @@ class DampingModel:
         return np.asarray(out)
 
     def velocity_kernel(self, time: ArrayLike) -> Array:
-        """Return K(t) = (2/pi) integral of B cos(omega t), (t, m, m), [eq:memory-velocity-kernel]."""
+        """Return K(t) = (2/pi) integral of B cos(omega t), (t, m, m), [eq:memory-velocity-kernel].
+
+        Parameters
+        ----------
+        time : array_like (t,)
+            Times, 0 or later [s].
+
+        Raises
+        ------
+        InputError
+            For times that are negative or not finite.
+        """
         t = _times(time)
         out = fourier_integral(self.knots, self.coefficients, t).real
         for i, row in enumerate(self.tails):
@@ -66,7 +83,18 @@ class DampingModel:
         return 2.0 / np.pi * out
 
     def acceleration_kernel(self, time: ArrayLike) -> Array:
-        """Return lambda(t) = (2/pi) integral of B/omega sin(omega t), (t, m, m), [eq:memory-acceleration-kernel]."""
+        """Return lambda(t) = (2/pi) integral of B/omega sin(omega t), (t, m, m), [eq:memory-acceleration-kernel].
+
+        Parameters
+        ----------
+        time : array_like (t,)
+            Times, 0 or later [s].
+
+        Raises
+        ------
+        InputError
+            For times that are negative or not finite.
+        """
         t = _times(time)
         out = fourier_integral(self.knots, self.over_frequency, t).imag
         out += scipy.special.sici(self.knots[-1] * t)[0][:, None, None] * self.steady
@@ -79,6 +107,16 @@ class DampingModel:
         """Return A(omega) - A(infinity), (k, m, m), from the damping alone, [eq:memory-kramers-kronig].
 
         The principal value is taken by subtracting B(omega), whose own principal value is zero.
+
+        Parameters
+        ----------
+        omega : array_like (k,)
+            Frequencies, greater than 0 [rad/s].
+
+        Raises
+        ------
+        InputError
+            For a frequency that is not positive.
         """
         w = np.atleast_1d(np.asarray(omega, dtype=float))
         if (w <= 0.0).any():
@@ -100,7 +138,18 @@ class DampingModel:
         return found
 
     def response(self, omega: ArrayLike) -> ComplexArray:
-        """Return the transform of K, integral of K exp(i omega t) = B - i omega (A - A_inf), (k, m, m)."""
+        """Return the transform of K, integral of K exp(i omega t) = B - i omega (A - A_inf), (k, m, m).
+
+        Parameters
+        ----------
+        omega : array_like (k,)
+            Frequencies, greater than 0 [rad/s].
+
+        Raises
+        ------
+        InputError
+            For a frequency that is not positive.
+        """
         w = np.atleast_1d(np.asarray(omega, dtype=float))
         return np.asarray(self.damping(w) - 1j * w[:, None, None] * self.added_mass_excess(w), dtype=complex)
 

@@ -67,6 +67,15 @@ class Modes:
     def normal_displacement(self, points: Array, normals: Array, body: NDArray[np.intp]) -> Array:
         """Return the normal displacement (modes, n) at boundary points with unit normals (n, 2), for unit amplitude.
 
+        Parameters
+        ----------
+        points : ndarray (n, 2)
+            x, z of the boundary points [m].
+        normals : ndarray (n, 2)
+            Unit normals there [-].
+        body : ndarray of int (n,)
+            Number of the body that each point belongs to.
+
         Raises
         ------
         InputError

@@ -71,7 +71,13 @@ class PlateLine:
 
     @classmethod
     def of(cls, plate: Plate) -> PlateLine:
-        """Return a single straight or circular plate as a line."""
+        """Return a single straight or circular plate as a line.
+
+        Parameters
+        ----------
+        plate : Plate
+            Straight or circular.
+        """
         return cls(np.array([plate.start, plate.end]), np.array([plate.bulge]))
 
     @property
@@ -87,11 +93,19 @@ class PlateLine:
 
     @property
     def outline(self) -> Array:
-        """Points (n, 2) along the plate for drawings, arcs as chords."""
+        """Points (n, 2) along the plate for drawings, x, z [m], arcs as chords."""
         return as_points(_chords(self.edges))
 
     def moved(self, shift: tuple[float, float] = (0.0, 0.0), heel: float = 0.0) -> PlateLine:
-        """Return the plate turned by ``heel`` [rad] (top towards +x) about the origin and then shifted [m]."""
+        """Return the plate turned by ``heel`` [rad] (top towards +x) about the origin and then shifted [m].
+
+        Parameters
+        ----------
+        shift : (float, float)
+            Along x and z, after the turn [m].
+        heel : float
+            Turn about the origin, top towards +x [rad].
+        """
         cosine, sine = math.cos(heel), math.sin(heel)
         turned = self.points @ np.array([[cosine, -sine], [sine, cosine]])
         return PlateLine(turned + np.asarray(shift, dtype=float), self.bulges)

@@ -158,7 +158,13 @@ class Hull:
         check_plates(lines, plates)
 
     def with_plates(self, *plates: PlateLine) -> Hull:
-        """Return the hull with thin plates added, in the body frame."""
+        """Return the hull with thin plates added, in the body frame.
+
+        Parameters
+        ----------
+        *plates : PlateLine
+            Added to those of the hull; x, z in the body frame [m].
+        """
         return replace(self, plates=self.plates + plates)
 
     @cached_property

@@ -64,21 +64,26 @@ class RadiationDiffraction:
 
     @property
     def added_mass(self) -> Array:
-        """Added mass (omega, radiating, influenced) of motion uniform along the structure."""
+        """Added mass (omega, radiating, influenced) of uniform motion, per metre [kg/m, kg, kg m]."""
         return self.normal.added_mass
 
     @property
     def radiation_damping(self) -> Array:
-        """Radiation damping (omega, radiating, influenced) of motion uniform along the structure."""
+        """Radiation damping (omega, radiating, influenced) of uniform motion, per metre [kg/(m s), kg/s, kg m/s]."""
         return self.normal.radiation_damping
 
     @property
     def radiated_wave(self) -> ComplexArray:
-        """Wave amplitude (omega, radiating, side) per unit velocity on the minus and plus side."""
+        """Wave amplitude (omega, radiating, side) per unit velocity on the minus and plus side [s, m s]."""
         return self.normal.radiated_wave
 
     def at_heading(self, heading: float) -> HeadingSolution:
         """Return the solution at one of the headings [rad] that were solved.
+
+        Parameters
+        ----------
+        heading : float
+            Either sign [rad].
 
         Raises
         ------
@@ -95,19 +100,19 @@ class RadiationDiffraction:
 
     @property
     def excitation_force(self) -> ComplexArray:
-        """Excitation (omega, heading, mode) per unit wave amplitude."""
+        """Excitation (omega, heading, mode) per unit wave amplitude, per metre [N/m2, N/m]."""
         values: ComplexArray = self._over_headings("excitation_force")
         return values
 
     @property
     def reflection_coefficient(self) -> ComplexArray:
-        """R (omega, heading) of the section held fixed, phase at x = 0."""
+        """R (omega, heading) of the section held fixed, phase at x = 0 [-]."""
         values: ComplexArray = self._over_headings("reflection_coefficient")
         return values
 
     @property
     def transmission_coefficient(self) -> ComplexArray:
-        """T (omega, heading) of the section held fixed, phase at x = 0."""
+        """T (omega, heading) of the section held fixed, phase at x = 0 [-]."""
         values: ComplexArray = self._over_headings("transmission_coefficient")
         return values
 

@@ -70,7 +70,7 @@ class StateSpace:
 
     @property
     def a(self) -> Array:
-        """Real block-diagonal system matrix (order, order)."""
+        """Real block-diagonal system matrix (order, order) [1/s]."""
         return self._real()[0]
 
     @property
@@ -98,14 +98,26 @@ class StateSpace:
         return a, b, c
 
     def velocity_kernel(self, time: ArrayLike) -> Array:
-        """Return K(t) (t, m, m)."""
+        """Return the memory kernel K(t) of the states, (t, m, m), in units of damping over time.
+
+        Parameters
+        ----------
+        time : array_like (t,)
+            [s].
+        """
         t = np.atleast_1d(np.asarray(time, dtype=float))
         growth = np.exp(self.poles * t[:, None])
         values: Array = np.einsum("ik,tk,kj->tij", self.outputs, growth, self.inputs).real
         return values
 
     def response(self, omega: ArrayLike) -> ComplexArray:
-        """Return the integral of K exp(i omega t), B - i omega (A - A_inf), (k, m, m)."""
+        """Return the integral of K exp(i omega t), B - i omega (A - A_inf), (k, m, m).
+
+        Parameters
+        ----------
+        omega : array_like (k,)
+            [rad/s].
+        """
         return _response(self.poles, self.inputs, self.outputs, np.atleast_1d(np.asarray(omega, dtype=float)))
 
 

@@ -88,23 +88,41 @@ class Plate:
 
     @property
     def corner(self) -> float:
-        """Sine of the angle between the plate and the still water at the start; 1 for a submerged plate."""
+        """Sine of the angle between plate and still water at the start [-]; 1 for a submerged plate."""
         if not self.pierces:
             return 1.0
         slope = self.slope(np.array([0.0]))[0]
         return max(0.0, -float(slope.imag) / self.length)
 
     def position(self, fraction: Array) -> ComplexArray:
-        """Return x + i z at arc-length fractions."""
+        """Return x + i z at arc-length fractions [m].
+
+        Parameters
+        ----------
+        fraction : ndarray (...)
+            Arc length from the start over the whole length, 0 to 1 [-].
+        """
         return np.asarray(arc_position(*self._ends, np.asarray(self.bulge), fraction))
 
     def offset(self, fraction: Array) -> ComplexArray:
-        """Return the position from the start of the plate, with all digits near it."""
+        """Return the position from the start of the plate, x + i z, with all digits near it [m].
+
+        Parameters
+        ----------
+        fraction : ndarray (...)
+            Arc length from the start over the whole length, 0 to 1 [-].
+        """
         start, end = self._ends
         return np.asarray(arc_position(0.0 * start, end - start, np.asarray(self.bulge), fraction))
 
     def slope(self, fraction: Array) -> ComplexArray:
-        """Return the derivative of the position with respect to the arc-length fraction."""
+        """Return the derivative of the position with respect to the arc-length fraction, x + i z [m].
+
+        Parameters
+        ----------
+        fraction : ndarray (...)
+            Arc length from the start over the whole length, 0 to 1 [-].
+        """
         return np.asarray(arc_slope(*self._ends, np.asarray(self.bulge), fraction))
 
     @property

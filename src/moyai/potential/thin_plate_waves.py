@@ -146,22 +146,22 @@ class PlateWaves:
 
     @property
     def added_mass(self) -> Array:
-        """Added mass (omega, radiating, influenced)."""
+        """Added mass (omega, radiating, influenced), per metre [kg/m, kg, kg m]."""
         return self.solution.added_mass
 
     @property
     def radiation_damping(self) -> Array:
-        """Radiation damping (omega, radiating, influenced)."""
+        """Radiation damping (omega, radiating, influenced), per metre [kg/(m s), kg/s, kg m/s]."""
         return self.solution.radiation_damping
 
     @property
     def radiated_wave(self) -> ComplexArray:
-        """Wave amplitude (omega, radiating, side) per unit velocity on the minus and the plus side."""
+        """Wave amplitude (omega, radiating, side) per unit velocity on the minus and the plus side [s, m s]."""
         return self.solution.radiated_wave
 
     @property
     def excitation_force(self) -> ComplexArray:
-        """Excitation (omega, side, mode) per unit amplitude of waves that come from the minus and from the plus side.
+        """Excitation (omega, side, mode) per unit amplitude, from the minus and the plus side, per metre [N/m2, N/m].
 
         From minus by pressure; from plus by the Haskind relation, which the checks hold for the other side.
         """
@@ -172,12 +172,12 @@ class PlateWaves:
 
     @property
     def reflection_coefficient(self) -> ComplexArray:
-        """R (omega, side) of the plates held fixed, for waves from the minus and the plus side, phase at x = 0."""
+        """R (omega, side) of plates held fixed, waves from the minus and the plus side, phase at x = 0 [-]."""
         return self._of_both("reflection_coefficient")
 
     @property
     def transmission_coefficient(self) -> ComplexArray:
-        """T (omega, side) of the plates held fixed, for waves from the minus and the plus side; the same from both."""
+        """T (omega, side) of plates held fixed, waves from the minus and the plus side, phase at x = 0 [-]."""
         return self._of_both("transmission_coefficient")
 
     def _of_both(self, name: str) -> ComplexArray:
@@ -200,11 +200,23 @@ class PlateWaves:
         )
 
     def drift_by_momentum(self, motions: ComplexArray | None = None) -> FarFieldDrift:
-        """Return the mean force of waves along +x from the far field."""
+        """Return the mean force of waves along +x from the far field.
+
+        Parameters
+        ----------
+        motions : ndarray of complex (omega, modes), optional
+            Amplitudes of the modes per unit wave amplitude [-, rad/m]; the plate is held when left out.
+        """
         return mean_drift_far_field(self.solution, motions)
 
     def drift_by_pressure(self, motions: ComplexArray | None = None) -> NearFieldDrift:
-        """Return the mean force of waves along +x from pressure and edge suction; needs rigid modes."""
+        """Return the mean force of waves along +x from pressure and edge suction; needs rigid modes.
+
+        Parameters
+        ----------
+        motions : ndarray of complex (omega, 3), optional
+            Amplitudes of the modes per unit wave amplitude [-, rad/m]; the plate is held when left out.
+        """
         return mean_drift_near_field(self.solution, motions)
 
 

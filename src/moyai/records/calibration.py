@@ -105,7 +105,7 @@ class Calibration:
 
     @property
     def correlation(self) -> Array:
-        """Correlation of the estimates."""
+        """Correlation of the estimates [-]."""
         scale = np.sqrt(np.diag(self.covariance))
         with np.errstate(invalid="ignore", divide="ignore"):
             return np.asarray(self.covariance / np.outer(scale, scale))

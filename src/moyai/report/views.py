@@ -153,6 +153,11 @@ class ReportedResult(Result):
     def shown_in(self, units: str) -> ReportedResult:
         """Return the result with its report, tables and figures in ``SI`` or ``tf``; its data stay in SI.
 
+        Parameters
+        ----------
+        units : {"SI", "tf"}
+            System of units.
+
         Raises
         ------
         InputError
@@ -163,6 +168,11 @@ class ReportedResult(Result):
 
     def said_in(self, language: str) -> ReportedResult:
         """Return the result with its report in ``en`` or ``ja``; its data, tables and figures in Python stay English.
+
+        Parameters
+        ----------
+        language : {"en", "ja"}
+            Of the report.
 
         Raises
         ------

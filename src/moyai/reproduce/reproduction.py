@@ -50,7 +50,13 @@ class Reproduction:
     laid: tuple[tuple[Points, tuple[Agreement, ...]], ...] = ()
 
     def count(self, verdict: str) -> int:
-        """Return how many statements have a verdict."""
+        """Return how many statements have a verdict.
+
+        Parameters
+        ----------
+        verdict : str
+            One of the verdicts of the findings.
+        """
         return sum(row.finding.verdict == verdict for row in self.rows)
 
 

@@ -98,7 +98,13 @@ class WaveComponents:
         return np.asarray(self.amplitude * np.exp(1j * self.phase))
 
     def travel(self, x: ArrayLike, y: ArrayLike) -> ComplexArray:
-        """Return e^{i k (x cos b + y sin b)} at points [m], shape (*points, components)."""
+        """Return e^{i k (x cos b + y sin b)} at points [m], shape (*points, components).
+
+        Parameters
+        ----------
+        x, y : array_like (*points)
+            Site axes [m], broadcast together.
+        """
         px, py = np.broadcast_arrays(np.asarray(x, float), np.asarray(y, float))
         along = px[..., None] * np.cos(self.heading) + py[..., None] * np.sin(self.heading)
         return np.asarray(np.exp(1j * (self.wave_number * along)))
@@ -126,7 +132,15 @@ class WaveComponents:
         return plain(self.respond(self.travel(x, y), time))
 
     def elevation_along(self, time: ArrayLike, x: ArrayLike, y: ArrayLike) -> Array:
-        """Return the elevation [m] along a track: time [s], x and y [m] broadcast together point by point."""
+        """Return the elevation [m] along a track: time [s], x and y [m] broadcast together point by point.
+
+        Parameters
+        ----------
+        time : array_like (...)
+            [s].
+        x, y : array_like (...)
+            Where the track is at these times, site axes [m].
+        """
         t, px, py = np.broadcast_arrays(*(np.asarray(item, float) for item in (time, x, y)))
         out = np.empty(t.size)
         _along_track(
@@ -160,7 +174,15 @@ class WaveComponents:
         return sum_over_time(self.omega, rows, np.asarray(time, dtype=np.float64), self.frequency_step)
 
     def envelope(self, time: ArrayLike, x: float = 0.0, y: float = 0.0) -> Array:
-        """Return the wave envelope |sum a e^{i (phase + k x - omega t)}| [m] at one point, for slow drift forces."""
+        """Return the wave envelope |sum a e^{i (phase + k x - omega t)}| [m] at one point, for slow drift forces.
+
+        Parameters
+        ----------
+        time : array_like (...)
+            [s].
+        x, y : float
+            Of the point, site axes [m].
+        """
         travel = self.travel(x, y)
         parts = self.respond(np.stack([travel, -1j * travel]), time)
         return np.asarray(np.hypot(parts[..., 0], parts[..., 1]))
@@ -241,6 +263,18 @@ class WaveComponents:
 
         Shape (*points.shape, 3, components), phase referred to x = y = 0; feed them to :meth:`respond`. Wheeler's
         stretching is not linear in the wave and refused.
+
+        Parameters
+        ----------
+        x, y, z : array_like (*points)
+            Site axes, z from still water upwards [m], broadcast together.
+        stretching : {"constant", "linear"}
+            What holds above still water; see :meth:`kinematics`.
+
+        Raises
+        ------
+        InputError
+            For another stretching, or components without water.
         """
         code = kinematics.stretching_code(stretching)
         if stretching == "wheeler":
@@ -282,20 +316,62 @@ class WaveComponents:
     def velocity(
         self, time: ArrayLike, x: ArrayLike, y: ArrayLike, z: ArrayLike, stretching: Stretching = "constant"
     ) -> Array:
-        """Return the water velocity [m/s] at all times at all points, shape (*time.shape, *points.shape, 3)."""
+        """Return the water velocity [m/s] at all times at all points, shape (*time.shape, *points.shape, 3).
+
+        Parameters
+        ----------
+        time : array_like (*time)
+            [s].
+        x, y, z : array_like (*points)
+            Site axes, z from still water upwards [m], broadcast together.
+        stretching : {"constant", "linear", "wheeler"}
+            What holds above still water.
+
+        Raises
+        ------
+        InputError
+            For another stretching, or components without water.
+        """
         return self._over_time(time, x, y, z, stretching, 1)
 
     @checks_words
     def acceleration(
         self, time: ArrayLike, x: ArrayLike, y: ArrayLike, z: ArrayLike, stretching: Stretching = "constant"
     ) -> Array:
-        """Return the water acceleration [m/s2], shape as :meth:`velocity` [eq:sea-linear-kinematics]."""
+        """Return the water acceleration [m/s2], shape as :meth:`velocity` [eq:sea-linear-kinematics].
+
+        Parameters
+        ----------
+        time : array_like (*time)
+            [s].
+        x, y, z : array_like (*points)
+            Site axes, z from still water upwards [m], broadcast together.
+        stretching : {"constant", "linear", "wheeler"}
+            What holds above still water.
+
+        Raises
+        ------
+        InputError
+            For another stretching, or components without water.
+        """
         return self._over_time(time, x, y, z, stretching, 2)
 
     def dynamic_pressure(self, time: ArrayLike, x: ArrayLike, y: ArrayLike, z: ArrayLike) -> Array:
         """Return the dynamic pressure [Pa], shape (*time.shape, *points.shape) [eq:sea-pressure].
 
         rho g cosh k(z+h) / cosh kh times the elevation, constant above still water.
+
+        Parameters
+        ----------
+        time : array_like (*time)
+            [s].
+        x, y, z : array_like (*points)
+            Site axes, z from still water upwards [m], broadcast together.
+
+        Raises
+        ------
+        InputError
+            For components without water.
         """
         water = self._water()
         px, py, pz = np.broadcast_arrays(*(np.asarray(item, dtype=np.float64) for item in (x, y, z)))
@@ -303,7 +379,18 @@ class WaveComponents:
         return self.respond(water.density * water.gravity * ratio * self.travel(px, py), time)
 
     def stokes_drift(self, z: ArrayLike) -> Array:
-        """Return the Stokes drift of the sea at heights z [m], x and y parts, shape (*z.shape, 2) [m/s]."""
+        """Return the Stokes drift of the sea at heights z [m], x and y parts, shape (*z.shape, 2) [m/s].
+
+        Parameters
+        ----------
+        z : array_like (...)
+            Heights above still water [m].
+
+        Raises
+        ------
+        InputError
+            For components without water.
+        """
         drift = kinematics.stokes_drift(
             self.amplitude, np.asarray(self.intrinsic_omega), self.wave_number, self._water().depth, z
         )

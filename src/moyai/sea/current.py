@@ -27,18 +27,38 @@ class CurrentProfile(ABC):
 
     @abstractmethod
     def velocity(self, z: ArrayLike) -> Array:
-        """Return the velocity (x, y) [m/s] at heights z [m], shape (*z.shape, 2)."""
+        """Return the velocity (x, y) [m/s] at heights z [m], shape (*z.shape, 2).
+
+        Parameters
+        ----------
+        z : array_like (...)
+            Heights above still water [m].
+        """
 
     @abstractmethod
     def _breaks(self, z_bottom: float, z_top: float) -> Array:
         """Return the limits and the heights between which the profile is smooth."""
 
     def speed(self, z: ArrayLike) -> Any:
-        """Return the speed [m/s] at heights z [m], a float for one height."""
+        """Return the speed [m/s] at heights z [m], a float for one height.
+
+        Parameters
+        ----------
+        z : array_like (...)
+            Heights above still water [m].
+        """
         return plain(np.hypot(*np.moveaxis(self.velocity(z), -1, 0)))
 
     def component(self, z: ArrayLike, heading: float) -> Any:
-        """Return the component along ``heading`` [rad] [m/s]: for a structure, the heading of its normal."""
+        """Return the component along ``heading`` [rad] [m/s]: for a structure, the heading of its normal.
+
+        Parameters
+        ----------
+        z : array_like (...)
+            Heights above still water [m].
+        heading : float
+            Of the axis, from +x towards +y [rad].
+        """
         return plain(self.velocity(z) @ np.array([math.cos(heading), math.sin(heading)]))
 
     def in_depth(self, water_depth: float) -> CurrentProfile:
@@ -59,13 +79,37 @@ class CurrentProfile(ABC):
         return z, half[:, None] * _WEIGHTS / (z_top - z_bottom)
 
     def depth_mean(self, z_bottom: float, z_top: float) -> Array:
-        """Return the mean velocity (x, y) [m/s] between two heights [m]."""
+        """Return the mean velocity (x, y) [m/s] between two heights [m].
+
+        Parameters
+        ----------
+        z_bottom, z_top : float
+            Heights above still water [m].
+
+        Raises
+        ------
+        InputError
+            For heights that are not finite, or not one above the other.
+        """
         z, weights = self._panels(z_bottom, z_top)
         values: Array = np.einsum("ij,ijk->k", weights, self.velocity(z))
         return values
 
     def depth_mean_squared(self, z_bottom: float, z_top: float, heading: float | None = None) -> float:
-        """Return the mean square [m2/s2] between two heights [m], of the speed or of the component along a heading."""
+        """Return the mean square [m2/s2] between two heights [m], of the speed or of the component along a heading.
+
+        Parameters
+        ----------
+        z_bottom, z_top : float
+            Heights above still water [m].
+        heading : float, optional
+            Of the component, from +x towards +y [rad]; the speed when left out.
+
+        Raises
+        ------
+        InputError
+            For heights that are not finite, or not one above the other.
+        """
         z, weights = self._panels(z_bottom, z_top)
         values = self.speed(z) if heading is None else self.component(z, heading)
         return float(np.sum(weights * values**2))
@@ -74,6 +118,18 @@ class CurrentProfile(ABC):
         """Return the mean of u |u| [m2/s2] between two heights [m], u the component along ``heading`` [rad].
 
         This is what a quadratic load sees when the current turns over the depth.
+
+        Parameters
+        ----------
+        z_bottom, z_top : float
+            Heights above still water [m].
+        heading : float
+            From +x towards +y [rad].
+
+        Raises
+        ------
+        InputError
+            For heights that are not finite, or not one above the other.
         """
         z, weights = self._panels(z_bottom, z_top)
         values = self.component(z, heading)
@@ -106,7 +162,13 @@ class UniformCurrent(CurrentProfile):
     heading: float
 
     def velocity(self, z: ArrayLike) -> Array:
-        """Return the velocity (x, y) [m/s]."""
+        """Return the velocity (x, y) [m/s], shape (*z.shape, 2).
+
+        Parameters
+        ----------
+        z : array_like (...)
+            Heights above still water [m]; only their shape counts.
+        """
         direction = self.current_speed * np.array([math.cos(self.heading), math.sin(self.heading)])
         return np.broadcast_to(direction, (*np.shape(z), 2)).copy()
 
@@ -132,7 +194,13 @@ class PowerLawCurrent(CurrentProfile):
     water_depth: float
 
     def in_depth(self, water_depth: float) -> CurrentProfile:
-        """Return the same power law over another depth [m]."""
+        """Return the same power law over another depth [m].
+
+        Parameters
+        ----------
+        water_depth : float
+            Greater than 0 [m].
+        """
         return replace(self, water_depth=float(water_depth))
 
     def _relative(self, z: ArrayLike) -> Array:
@@ -141,7 +209,18 @@ class PowerLawCurrent(CurrentProfile):
         return np.clip(1.0 + level / self.water_depth, 0.0, 1.0)
 
     def velocity(self, z: ArrayLike) -> Array:
-        """Return the velocity (x, y) [m/s]."""
+        """Return the velocity (x, y) [m/s], shape (*z.shape, 2).
+
+        Parameters
+        ----------
+        z : array_like (...)
+            Heights above still water [m]; above it the surface velocity is kept.
+
+        Raises
+        ------
+        InputError
+            For a height below the bed.
+        """
         size = self.surface_speed * self._relative(z) ** self.exponent
         return np.stack([size * math.cos(self.heading), size * math.sin(self.heading)], axis=-1)
 
@@ -157,17 +236,54 @@ class PowerLawCurrent(CurrentProfile):
         return float((below + above) / (z_top - z_bottom))
 
     def depth_mean(self, z_bottom: float, z_top: float) -> Array:
-        """Return the mean velocity (x, y) [m/s] between two heights [m]."""
+        """Return the mean velocity (x, y) [m/s] between two heights [m].
+
+        Parameters
+        ----------
+        z_bottom, z_top : float
+            Heights above still water [m].
+
+        Raises
+        ------
+        InputError
+            For heights that are not finite, below the bed, or not one above the other.
+        """
         size = self.surface_speed * self._mean_power(z_bottom, z_top, self.exponent)
         return size * np.array([math.cos(self.heading), math.sin(self.heading)])
 
     def depth_mean_squared(self, z_bottom: float, z_top: float, heading: float | None = None) -> float:
-        """Return the mean square [m2/s2] between two heights [m], of the speed or of the component along a heading."""
+        """Return the mean square [m2/s2] between two heights [m], of the speed or of the component along a heading.
+
+        Parameters
+        ----------
+        z_bottom, z_top : float
+            Heights above still water [m].
+        heading : float, optional
+            Of the component, from +x towards +y [rad]; the speed when left out.
+
+        Raises
+        ------
+        InputError
+            For heights that are not finite, below the bed, or not one above the other.
+        """
         part = 1.0 if heading is None else math.cos(self.heading - heading)
         return (self.surface_speed * part) ** 2 * self._mean_power(z_bottom, z_top, 2.0 * self.exponent)
 
     def depth_mean_drag(self, z_bottom: float, z_top: float, heading: float) -> float:
-        """Return the mean of u |u| [m2/s2] between two heights [m]."""
+        """Return the mean of u |u| [m2/s2] between two heights [m].
+
+        Parameters
+        ----------
+        z_bottom, z_top : float
+            Heights above still water [m].
+        heading : float
+            Of the component u, from +x towards +y [rad].
+
+        Raises
+        ------
+        InputError
+            For heights that are not finite, below the bed, or not one above the other.
+        """
         sign = math.copysign(1.0, self.surface_speed * math.cos(self.heading - heading))
         return sign * self.depth_mean_squared(z_bottom, z_top, heading)
 
@@ -189,7 +305,18 @@ class TabulatedCurrent(CurrentProfile):
     components: Array
 
     def velocity(self, z: ArrayLike) -> Array:
-        """Return the velocity (x, y) [m/s]: end values are kept above the highest and below the lowest height."""
+        """Return the velocity (x, y) [m/s]: end values are kept above the highest and below the lowest height.
+
+        Parameters
+        ----------
+        z : array_like (...)
+            Heights above still water [m].
+
+        Returns
+        -------
+        ndarray (..., 2)
+            x, y in site axes [m/s].
+        """
         level = np.asarray(z, dtype=np.float64)
         return np.stack([np.interp(level, self.z, self.components[:, axis]) for axis in (0, 1)], axis=-1)
 
@@ -198,7 +325,20 @@ class TabulatedCurrent(CurrentProfile):
         return np.concatenate([[z_bottom], inner, [z_top]])
 
     def depth_mean_drag(self, z_bottom: float, z_top: float, heading: float) -> float:
-        """Return the mean of u |u| [m2/s2] between two heights [m], also where the component changes sign."""
+        """Return the mean of u |u| [m2/s2] between two heights [m], also where the component changes sign.
+
+        Parameters
+        ----------
+        z_bottom, z_top : float
+            Heights above still water [m].
+        heading : float
+            Of the component u, from +x towards +y [rad].
+
+        Raises
+        ------
+        InputError
+            For heights that are not finite, or not one above the other.
+        """
         _check_range(z_bottom, z_top)
         edges = self._breaks(z_bottom, z_top)
         u = self.component(edges, heading)

@@ -34,22 +34,58 @@ class Spreading(ABC):
 
     @abstractmethod
     def density(self, offset: ArrayLike, omega: ArrayLike) -> Array:
-        """Return G [1/rad] at offsets [rad] from the mean heading, for frequencies [rad/s] (broadcast)."""
+        """Return G [1/rad] at offsets [rad] from the mean heading, for frequencies [rad/s] (broadcast).
+
+        Parameters
+        ----------
+        offset : array_like (...)
+            From the mean heading [rad].
+        omega : array_like (...)
+            [rad/s].
+        """
 
     @abstractmethod
     def cumulative(self, offset: ArrayLike, omega: ArrayLike) -> Array:
-        """Return the fraction of the energy between -pi and ``offset`` [rad] in [-pi, pi]."""
+        """Return the fraction of the energy between -pi and ``offset`` [rad] in [-pi, pi].
+
+        Parameters
+        ----------
+        offset : array_like (...)
+            From the mean heading [rad].
+        omega : array_like (...)
+            [rad/s].
+        """
 
     @abstractmethod
     def quantile(self, fraction: ArrayLike, omega: ArrayLike) -> Array:
-        """Return the offset [rad] below which ``fraction`` of the energy lies."""
+        """Return the offset [rad] below which ``fraction`` of the energy lies.
+
+        Parameters
+        ----------
+        fraction : array_like (...)
+            0 to 1 [-].
+        omega : array_like (...)
+            [rad/s].
+        """
 
     @abstractmethod
     def resultant(self, omega: ArrayLike) -> Array:
-        """Return the first circular moment, the energy mean of cos(offset) [-]."""
+        """Return the first circular moment, the energy mean of cos(offset) [-].
+
+        Parameters
+        ----------
+        omega : array_like (...)
+            [rad/s].
+        """
 
     def spread(self, omega: ArrayLike) -> Array:
-        """Return the circular standard deviation sqrt(2 (1 - resultant)) of Kuik et al. (1988) [rad]."""
+        """Return the circular standard deviation sqrt(2 (1 - resultant)) of Kuik et al. (1988) [rad].
+
+        Parameters
+        ----------
+        omega : array_like (...)
+            [rad/s].
+        """
         return np.asarray(np.sqrt(2.0 * (1.0 - self.resultant(omega))))
 
 
@@ -63,24 +99,64 @@ class _HalfAngle(Spreading):
 
     @abstractmethod
     def exponent_at(self, omega: ArrayLike) -> Array:
-        """Return s [-]."""
+        """Return s [-].
+
+        Parameters
+        ----------
+        omega : array_like (...)
+            [rad/s].
+        """
 
     def density(self, offset: ArrayLike, omega: ArrayLike) -> Array:
+        """Return G [1/rad] at offsets from the mean heading, for frequencies (broadcast).
+
+        Parameters
+        ----------
+        offset : array_like (...)
+            From the mean heading [rad].
+        omega : array_like (...)
+            [rad/s].
+        """
         s, angle = self.exponent_at(omega), wrapped(offset)
         scale = np.exp(scipy.special.gammaln(s + 1.0) - scipy.special.gammaln(s + 0.5)) / (2.0 * math.sqrt(math.pi))
         return np.asarray(scale * np.abs(np.cos(0.5 * angle)) ** (2.0 * s))
 
     def cumulative(self, offset: ArrayLike, omega: ArrayLike) -> Array:
+        """Return the fraction of the energy up to ``offset`` [-].
+
+        Parameters
+        ----------
+        offset : array_like (...)
+            From the mean heading [rad].
+        omega : array_like (...)
+            [rad/s].
+        """
         s, angle = self.exponent_at(omega), wrapped(offset)
         half = 0.5 * scipy.special.betainc(0.5, s + 0.5, np.sin(0.5 * angle) ** 2)
         return np.asarray(0.5 + np.sign(angle) * half)
 
     def quantile(self, fraction: ArrayLike, omega: ArrayLike) -> Array:
+        """Return the offset [rad] below which ``fraction`` of the energy lies.
+
+        Parameters
+        ----------
+        fraction : array_like (...)
+            0 to 1 [-].
+        omega : array_like (...)
+            [rad/s].
+        """
         side = 2.0 * np.asarray(fraction, dtype=np.float64) - 1.0
         root = np.sqrt(scipy.special.betaincinv(0.5, self.exponent_at(omega) + 0.5, np.abs(side)))
         return np.asarray(np.sign(side) * 2.0 * np.arcsin(root))
 
     def resultant(self, omega: ArrayLike) -> Array:
+        """Return the energy mean of cos(offset), s / (s + 1) [-].
+
+        Parameters
+        ----------
+        omega : array_like (...)
+            [rad/s].
+        """
         s = self.exponent_at(omega)
         return np.asarray(s / (s + 1.0))
 
@@ -103,7 +179,13 @@ class CosineTwoS(_HalfAngle):
         _check_exponent("exponent", self.exponent)
 
     def exponent_at(self, omega: ArrayLike) -> Array:
-        """Return s [-], the same at every frequency."""
+        """Return s [-], the same at every frequency.
+
+        Parameters
+        ----------
+        omega : array_like (...)
+            [rad/s]; only its shape counts.
+        """
         return np.full(np.shape(omega), self.exponent)
 
 
@@ -131,7 +213,13 @@ class Mitsuyasu(_HalfAngle):
         _check_exponent("peak_omega", self.peak_omega)
 
     def exponent_at(self, omega: ArrayLike) -> Array:
-        """Return s [-] at ``omega`` [rad/s]."""
+        """Return s [-] at ``omega`` [rad/s].
+
+        Parameters
+        ----------
+        omega : array_like (...)
+            [rad/s].
+        """
         relative = np.asarray(omega, dtype=np.float64) / self.peak_omega
         with np.errstate(divide="ignore"):
             factor = np.where(relative <= 1.0, relative**5, relative**-2.5)
@@ -157,7 +245,15 @@ class CosinePower(Spreading):
         _check_exponent("exponent", self.exponent)
 
     def density(self, offset: ArrayLike, omega: ArrayLike) -> Array:
-        """Return G [1/rad]; the frequency does not matter."""
+        """Return G [1/rad]; the frequency does not matter.
+
+        Parameters
+        ----------
+        offset : array_like (...)
+            From the mean heading [rad].
+        omega : array_like (...)
+            [rad/s]; only its shape counts.
+        """
         angle, n = wrapped(offset), self.exponent
         scale = math.exp(
             float(scipy.special.gammaln(0.5 * n + 1.0) - scipy.special.gammaln(0.5 * n + 0.5))
@@ -166,19 +262,41 @@ class CosinePower(Spreading):
         return np.asarray(np.broadcast_arrays(value, np.asarray(omega, float))[0])
 
     def cumulative(self, offset: ArrayLike, omega: ArrayLike) -> Array:
-        """Return the fraction of the energy up to ``offset`` [rad]."""
+        """Return the fraction of the energy up to ``offset`` [rad].
+
+        Parameters
+        ----------
+        offset : array_like (...)
+            From the mean heading [rad].
+        omega : array_like (...)
+            [rad/s]; only its shape counts.
+        """
         angle = np.clip(wrapped(offset), -0.5 * math.pi, 0.5 * math.pi)
         half = 0.5 * scipy.special.betainc(0.5, 0.5 * (self.exponent + 1.0), np.sin(angle) ** 2)
         return np.asarray(np.broadcast_arrays(0.5 + np.sign(angle) * half, np.asarray(omega, float))[0])
 
     def quantile(self, fraction: ArrayLike, omega: ArrayLike) -> Array:
-        """Return the offset [rad] below which ``fraction`` of the energy lies."""
+        """Return the offset [rad] below which ``fraction`` of the energy lies.
+
+        Parameters
+        ----------
+        fraction : array_like (...)
+            0 to 1 [-].
+        omega : array_like (...)
+            [rad/s]; only its shape counts.
+        """
         side = 2.0 * np.asarray(fraction, dtype=np.float64) - 1.0
         root = np.sqrt(scipy.special.betaincinv(0.5, 0.5 * (self.exponent + 1.0), np.abs(side)))
         return np.asarray(np.broadcast_arrays(np.sign(side) * np.arcsin(root), np.asarray(omega, float))[0])
 
     def resultant(self, omega: ArrayLike) -> Array:
-        """Return the energy mean of cos(offset) [-]."""
+        """Return the energy mean of cos(offset) [-].
+
+        Parameters
+        ----------
+        omega : array_like (...)
+            [rad/s]; only its shape counts.
+        """
         n = self.exponent
         ratio = (
             2.0 * scipy.special.gammaln(0.5 * n + 1.0)
@@ -212,20 +330,44 @@ class WrappedNormal(Spreading):
         return np.asarray(2.0 * math.pi * np.arange(-reach, reach + 1), dtype=np.float64)
 
     def density(self, offset: ArrayLike, omega: ArrayLike) -> Array:
-        """Return G [1/rad]; the frequency does not matter."""
+        """Return G [1/rad]; the frequency does not matter.
+
+        Parameters
+        ----------
+        offset : array_like (...)
+            From the mean heading [rad].
+        omega : array_like (...)
+            [rad/s]; only its shape counts.
+        """
         deviation = (wrapped(offset)[..., None] + self._turns()) / self.standard_deviation
         value = np.exp(-0.5 * deviation**2).sum(axis=-1) / (math.sqrt(2.0 * math.pi) * self.standard_deviation)
         return np.asarray(np.broadcast_arrays(value, np.asarray(omega, float))[0])
 
     def cumulative(self, offset: ArrayLike, omega: ArrayLike) -> Array:
-        """Return the fraction of the energy up to ``offset`` [rad]."""
+        """Return the fraction of the energy up to ``offset`` [rad].
+
+        Parameters
+        ----------
+        offset : array_like (...)
+            From the mean heading [rad].
+        omega : array_like (...)
+            [rad/s]; only its shape counts.
+        """
         turns = self._turns()
         upto = scipy.special.ndtr((wrapped(offset)[..., None] + turns) / self.standard_deviation)
         value = (upto - scipy.special.ndtr((turns - math.pi) / self.standard_deviation)).sum(axis=-1)
         return np.asarray(np.broadcast_arrays(value, np.asarray(omega, float))[0])
 
     def quantile(self, fraction: ArrayLike, omega: ArrayLike) -> Array:
-        """Return the offset [rad] below which ``fraction`` of the energy lies (bisection to rounding)."""
+        """Return the offset [rad] below which ``fraction`` of the energy lies (bisection to rounding).
+
+        Parameters
+        ----------
+        fraction : array_like (...)
+            0 to 1 [-].
+        omega : array_like (...)
+            [rad/s]; only its shape counts.
+        """
         wanted = np.broadcast_arrays(np.asarray(fraction, float), np.asarray(omega, float))[0]
         low, high = np.full(wanted.shape, -math.pi), np.full(wanted.shape, math.pi)
         for _ in range(55):
@@ -235,5 +377,11 @@ class WrappedNormal(Spreading):
         return np.asarray(0.5 * (low + high))
 
     def resultant(self, omega: ArrayLike) -> Array:
-        """Return exp(-sigma^2 / 2) [-]."""
+        """Return exp(-sigma^2 / 2) [-].
+
+        Parameters
+        ----------
+        omega : array_like (...)
+            [rad/s]; only its shape counts.
+        """
         return np.full(np.shape(omega), math.exp(-0.5 * self.standard_deviation**2))

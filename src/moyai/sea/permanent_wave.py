@@ -119,6 +119,13 @@ class NonlinearWave:
         """Return the surface elevation [m] at all times [s] at all points [m], shape (*time.shape, *points.shape).
 
         A single instant at a single point gives a float.
+
+        Parameters
+        ----------
+        time : array_like (*time)
+            [s].
+        x, y : array_like (*points)
+            Site axes [m], broadcast together.
         """
         angle, shape = self._angle(time, x, y)
         return plain(self._elevation_at(angle).reshape(shape))
@@ -174,6 +181,15 @@ class NonlinearWave:
         """Return the acceleration of water particles [m/s2], or the local one with ``convective=False``.
 
         Shape as :meth:`velocity`.
+
+        Parameters
+        ----------
+        time : array_like (*time)
+            [s].
+        x, y, z : array_like (*points)
+            Site axes, z from still water upwards [m], broadcast together.
+        convective : bool
+            Whether the particle is followed.
         """
         fields, _, shape = self._fields(time, x, y, z)
         if not convective:
@@ -207,9 +223,16 @@ class NonlinearWave:
         return out[0], out[1]
 
     def orbital_motion(self, time: ArrayLike, x: ArrayLike, y: ArrayLike, z: ArrayLike) -> tuple[Array, Array, Array]:
-        """Return elevation, velocity without the current, and acceleration of water particles at points.
+        """Return elevation [m], velocity without the current [m/s] and acceleration of water [m/s2] at points.
 
         Shapes (*time.shape, *points.shape) and (*time.shape, *points.shape, 3).
+
+        Parameters
+        ----------
+        time : array_like (*time)
+            [s].
+        x, y, z : array_like (*points)
+            Site axes, z from still water upwards [m], broadcast together.
         """
         fields, angle, shape = self._fields(time, x, y, z)
         velocity = self._in_space(fields[0], fields[1], shape)
@@ -219,6 +242,13 @@ class NonlinearWave:
         """Return the pressure above the still-water hydrostatic one [Pa], shape (*time.shape, *points.shape).
 
         By Bernoulli in the frame of the crest, so that the total pressure vanishes at the surface.
+
+        Parameters
+        ----------
+        time : array_like (*time)
+            [s].
+        x, y, z : array_like (*points)
+            Site axes, z from still water upwards [m], broadcast together.
         """
         (u, w, _, _), _, shape = self._fields(time, x, y, z)
         head = self.bernoulli_constant - 0.5 * ((u - self.relative_celerity) ** 2 + w**2)
@@ -244,6 +274,11 @@ class NonlinearWave:
 
     def surface_residuals(self, points: int = 64) -> tuple[float, float]:
         """Return how far the wave is from the exact free-surface conditions.
+
+        Parameters
+        ----------
+        points : int
+            Places between crest and trough where they are taken.
 
         Returns
         -------

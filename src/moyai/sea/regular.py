@@ -130,5 +130,13 @@ class RegularWave:
         )
 
     def elevation(self, time: ArrayLike, x: ArrayLike = 0.0, y: ArrayLike = 0.0) -> Any:
-        """Return the surface elevation [m]; see :meth:`WaveComponents.elevation`."""
+        """Return the surface elevation [m]; see :meth:`WaveComponents.elevation`.
+
+        Parameters
+        ----------
+        time : array_like (*time)
+            [s].
+        x, y : array_like (*points)
+            Site axes [m], broadcast together.
+        """
         return self.components().elevation(time, x, y)

@@ -147,7 +147,13 @@ class Spectrum:
         return Spectrum, (*values, self.shapes, self.lower, self.upper)
 
     def density_at(self, omega: ArrayLike) -> Any:
-        """Return the density [m2 s/rad] at any frequencies [rad/s]: the formula, or the table interpolated linearly."""
+        """Return the density [m2 s/rad] at any frequencies [rad/s]: the formula, or the table interpolated linearly.
+
+        Parameters
+        ----------
+        omega : array_like (...)
+            [rad/s].
+        """
         frequency = np.asarray(omega, dtype=np.float64)
         if self.shapes:
             value = sum((shape(frequency) for shape in self.shapes), np.zeros_like(frequency))
@@ -200,7 +206,13 @@ class Spectrum:
         return self._integral(order, 1, lower, upper)
 
     def energy_below(self, omega: ArrayLike) -> Any:
-        """Return the variance [m2] of the frequencies below ``omega`` [rad/s]."""
+        """Return the variance [m2] of the frequencies below ``omega`` [rad/s].
+
+        Parameters
+        ----------
+        omega : array_like (...)
+            [rad/s].
+        """
         frequency = np.asarray(omega, dtype=np.float64)
         return plain(self._energy_below()(np.ravel(frequency)).reshape(frequency.shape))
 
@@ -215,7 +227,18 @@ class Spectrum:
         return lambda omega: cumulative(np.clip(omega, self.lower, self.upper)) - nothing
 
     def quantile(self, fraction: ArrayLike) -> Any:
-        """Return the frequency [rad/s] below which ``fraction`` (between 0 and 1) of the variance lies."""
+        """Return the frequency [rad/s] below which ``fraction`` (between 0 and 1) of the variance lies.
+
+        Parameters
+        ----------
+        fraction : array_like (...)
+            0 to 1 [-].
+
+        Raises
+        ------
+        InputError
+            For a fraction outside 0 to 1.
+        """
         wanted = np.asarray(fraction, dtype=np.float64)
         if ((wanted < 0.0) | (wanted > 1.0) | np.isnan(wanted)).any():
             raise InputError("fraction outside 0 to 1", parameter="fraction", allowed="0 to 1")
@@ -292,6 +315,16 @@ class Spectrum:
         """Return epsilon = sqrt(1 - m_2^2 / (m_0 m_4)) of Cartwright and Longuet-Higgins (1956) [-].
 
         ``upper`` [rad/s] must be finite for an omega^-5 tail, on which epsilon depends.
+
+        Parameters
+        ----------
+        upper : float
+            Upper limit of the moments [rad/s].
+
+        Raises
+        ------
+        InputError
+            When the fourth moment diverges.
         """
         m0, m2, m4 = (self.moment(order, upper=upper) for order in (0, 2, 4))
         return math.sqrt(max(1.0 - m2 * m2 / (m0 * m4), 0.0))
@@ -302,10 +335,22 @@ class Spectrum:
         return 2.0 * self._integral(1.0, 2, 0.0, math.inf) / self.moment(0) ** 2
 
     def truncated(self, lower: float, upper: float) -> Spectrum:
-        """Return the spectrum cut to a band [rad/s]; its energy outside the band is gone, nothing is scaled up."""
+        """Return the spectrum cut to a band [rad/s]; its energy outside the band is gone, nothing is scaled up.
+
+        Parameters
+        ----------
+        lower, upper : float
+            Ends of the band [rad/s].
+        """
         return replace(self, lower=max(lower, self.lower), upper=min(upper, self.upper))
 
     def scaled(self, factor: float) -> Spectrum:
-        """Return the spectrum with all densities multiplied by ``factor`` [-]."""
+        """Return the spectrum with all densities multiplied by ``factor`` [-].
+
+        Parameters
+        ----------
+        factor : float
+            [-].
+        """
         shapes = tuple(replace(shape, scale=shape.scale * factor) for shape in self.shapes)
         return replace(self, density=self.density * factor, shapes=shapes)

@@ -42,7 +42,18 @@ class Water:
                 raise InputError(f"{name} is {value:g}", parameter=f"water.{name}", allowed=allowed)
 
     def with_depth(self, depth: float) -> Water:
-        """Return the same water at another depth."""
+        """Return the same water at another depth.
+
+        Parameters
+        ----------
+        depth : float
+            Greater than 0, or infinite [m].
+
+        Raises
+        ------
+        InputError
+            For a depth that is not positive.
+        """
         return replace(self, depth=depth)
 
 

@@ -47,17 +47,57 @@ class AcerFit:
     rates: ExceedanceRates
 
     def rate(self, level: ArrayLike) -> Array:
-        """Return the rate of a level, per peak [eq:extremes-acer-tail]."""
+        """Return the rate of a level, per peak [eq:extremes-acer-tail].
+
+        Parameters
+        ----------
+        level : array_like (...)
+            In the unit of the data.
+        """
         excess = np.maximum(np.asarray(level, dtype=float) - self.b, 0.0)
         return np.asarray(self.q * np.exp(-self.a * excess**self.c))
 
     def maximum_level(self, count: float, probability: float) -> float:
-        """Return the level that the maximum of ``count`` peaks stays below with ``probability``."""
+        """Return the level that the maximum of ``count`` peaks stays below with ``probability``.
+
+        Parameters
+        ----------
+        count : float
+            Number of peaks.
+        probability : float
+            Between 0 and 1 [-].
+
+        Returns
+        -------
+        float
+            In the unit of the data.
+
+        Raises
+        ------
+        InputError
+            When the level is outside the fitted tail.
+        """
         wanted = -math.log(probability) / count
         return _level_of(self, wanted)
 
     def most_probable_maximum(self, count: float) -> float:
-        """Return the level whose rate is one in ``count`` peaks."""
+        """Return the level whose rate is one in ``count`` peaks.
+
+        Parameters
+        ----------
+        count : float
+            Number of peaks.
+
+        Returns
+        -------
+        float
+            In the unit of the data.
+
+        Raises
+        ------
+        InputError
+            When the level is outside the fitted tail.
+        """
         return _level_of(self, 1.0 / count)
 
 

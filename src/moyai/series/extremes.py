@@ -56,7 +56,13 @@ class ExtremeFit:
         return 0.0 if self.threshold is None else ((self.threshold - self.location) / self.scale) ** self.shape
 
     def exceedance(self, level: ArrayLike) -> Array:
-        """Return the probability that a value exceeds ``level``; accurate also where it is tiny."""
+        """Return the probability that a value exceeds ``level``; accurate also where it is tiny.
+
+        Parameters
+        ----------
+        level : array_like (...)
+            In the unit of the data.
+        """
         y = (np.asarray(level, dtype=float) - self.location) / self.scale
         if self.family == "gumbel":
             return np.asarray(-np.expm1(-np.exp(-y)))
@@ -68,7 +74,23 @@ class ExtremeFit:
         return np.asarray(np.maximum(1.0 + self.shape * y, 0.0) ** (-1.0 / self.shape))
 
     def level(self, exceedance: ArrayLike) -> Array:
-        """Return the level that is exceeded with the given probability."""
+        """Return the level that is exceeded with the given probability.
+
+        Parameters
+        ----------
+        exceedance : array_like (...)
+            Between 0 and 1, both excluded [-].
+
+        Returns
+        -------
+        ndarray (...)
+            In the unit of the data.
+
+        Raises
+        ------
+        InputError
+            For a probability that is not between 0 and 1.
+        """
         p = np.asarray(exceedance, dtype=float)
         if np.any((p <= 0.0) | (p >= 1.0)):
             raise InputError("a probability of exceedance lies between 0 and 1", parameter="exceedance")
@@ -81,7 +103,23 @@ class ExtremeFit:
         return np.asarray(self.location + self.scale * np.expm1(-self.shape * np.log(p)) / self.shape)
 
     def most_probable_maximum(self, count: float) -> float:
-        """Return the level that is exceeded once in ``count`` values on the average: the mode of their maximum."""
+        """Return the level that is exceeded once in ``count`` values on the average: the mode of their maximum.
+
+        Parameters
+        ----------
+        count : float
+            Number of values, more than 1.
+
+        Returns
+        -------
+        float
+            In the unit of the data.
+
+        Raises
+        ------
+        InputError
+            For a count of 1 or less.
+        """
         if not count > 1.0:
             raise InputError(f"the maximum of {count:g} values has no mode", parameter="count", allowed="more than 1")
         if self.family == "gumbel":
@@ -89,14 +127,40 @@ class ExtremeFit:
         return float(self.level(1.0 / count))
 
     def maximum_level(self, count: float, probability: float) -> float:
-        """Return the level that the maximum of ``count`` values stays below with ``probability``."""
+        """Return the level that the maximum of ``count`` values stays below with ``probability``.
+
+        Parameters
+        ----------
+        count : float
+            Number of values.
+        probability : float
+            Between 0 and 1, both excluded [-].
+
+        Returns
+        -------
+        float
+            In the unit of the data.
+
+        Raises
+        ------
+        InputError
+            For a probability that is not between 0 and 1.
+        """
         if not 0.0 < probability < 1.0:
             raise InputError("a probability lies between 0 and 1", parameter="probability")
         # 1 - probability**(1 / count), without cancellation for many values
         return float(self.level(-math.expm1(math.log(probability) / count)))
 
     def sample(self, count: int, generator: np.random.Generator) -> Array:
-        """Draw values."""
+        """Draw values of the distribution, (count,), in the unit of the data.
+
+        Parameters
+        ----------
+        count : int
+            How many.
+        generator : numpy.random.Generator
+            Draws the probabilities.
+        """
         return self.level(np.clip(generator.random(count), 1e-300, 1.0 - 1e-16))
 
 

@@ -81,7 +81,18 @@ class Waves:
         return int(self.height.size)
 
     def highest(self, fraction: float) -> tuple[float, float]:
-        """Return mean height and mean period [s] of the highest ``fraction`` of the waves."""
+        """Return mean height and mean period [s] of the highest ``fraction`` of the waves.
+
+        Parameters
+        ----------
+        fraction : float
+            Of the number of waves, for instance 1/3 [-].
+
+        Returns
+        -------
+        (float, float)
+            In the unit of the record, and [s]; NaN without waves.
+        """
         if len(self) == 0:
             return math.nan, math.nan
         number = share_of(len(self), fraction, self.options.share)

@@ -107,6 +107,11 @@ class StudyTable:
         A response may be named by the end of its name, where that is only one, and by labels:
         ``line_tension_maximum[line=seaward]``; the largest entry of what is left counts.
 
+        Parameters
+        ----------
+        text : str
+            Name, with labels in brackets where needed.
+
         Raises
         ------
         InputError
@@ -162,6 +167,16 @@ class StudyTable:
     def where(self, text: str) -> NDArray[np.bool_]:
         """Return which cases a condition holds for: ``significant_height > 0.6 m``, ``lost_line = intact``.
 
+        Parameters
+        ----------
+        text : str
+            Name, comparison, and value with a unit.
+
+        Returns
+        -------
+        ndarray of bool (cases,)
+            True where it holds.
+
         Raises
         ------
         InputError
@@ -203,6 +218,17 @@ class StudyTable:
     def chosen(self, conditions: Sequence[str], by: str | None, top: int | None, smallest: bool) -> NDArray[np.intp]:
         """Return the numbers of the cases that all conditions hold for, the largest of a response first.
 
+        Parameters
+        ----------
+        conditions : sequence of str
+            As for :meth:`where`.
+        by : str or None
+            Response that the cases are ordered by; cases without its value are left out. None keeps their order.
+        top : int or None
+            How many are returned; all for None.
+        smallest : bool
+            Whether the smallest comes first.
+
         Raises
         ------
         InputError
@@ -223,7 +249,13 @@ class StudyTable:
         return index[:top] if top is not None else index
 
     def varying(self, most: int = 4) -> list[str]:
-        """Return the watched response, or those that vary most from case to case."""
+        """Return the watched response, or those that vary most from case to case.
+
+        Parameters
+        ----------
+        most : int
+            How many names at most.
+        """
         if self.watch:
             try:
                 return [self.column(self.watch).name]
@@ -240,6 +272,22 @@ class StudyTable:
     @checks_words
     def pivot(self, rows: str, columns: str, by: str, index: NDArray[np.intp], smallest: bool) -> Array:
         """Return the largest (or smallest) value of a response over two axes; NaN where no case is left.
+
+        Parameters
+        ----------
+        rows, columns : str
+            Two axes of the study.
+        by : str
+            Response.
+        index : ndarray of int (cases,)
+            Numbers of the cases that count.
+        smallest : bool
+            Whether the smallest value is taken.
+
+        Returns
+        -------
+        ndarray (rows, columns)
+            In the unit of the response.
 
         Raises
         ------

@@ -49,7 +49,15 @@ class LineProperties:
     source: str
 
     def submerged_weight_per_length(self, density: float, gravity: float) -> float:
-        """Return the weight in water of ``density`` [kg/m3] under ``gravity`` [m/s2], per length [N/m]."""
+        """Return the weight in water per length [N/m].
+
+        Parameters
+        ----------
+        density : float
+            Of the water [kg/m3].
+        gravity : float
+            [m/s2].
+        """
         return (self.mass_per_length - density * self.volume_per_length) * gravity
 
     @property

@@ -31,7 +31,7 @@ class Outcome:
 
     @property
     def error(self) -> float:
-        """Error against the reference."""
+        """Error against the reference, relative [-] or in its unit."""
         return self.case.error(self.value)
 
     @property

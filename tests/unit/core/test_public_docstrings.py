@@ -2,11 +2,13 @@
 
 import ast
 import doctest
+import functools
 import inspect
 import pkgutil
 import re
 import textwrap
 from importlib import import_module
+from pathlib import Path
 from types import ModuleType
 
 import pytest
@@ -181,3 +183,83 @@ def test_what_users_make_by_hand_has_an_example():
 @pytest.mark.parametrize("name", CLASSES)
 def test_the_example_of_a_class_runs(name):
     check_examples(name, CLASSES[name])
+
+
+#: Methods that do not say yet what they take. The list may only become shorter.
+METHODS_INCOMPLETE: set[str] = set()
+
+
+def packages():
+    """Packages, also inner ones, that hand out names."""
+    source = Path(moyai.__file__).parent
+    homes = [path.parent for path in source.rglob("__init__.py") if "exports(" in path.read_text(encoding="utf-8")]
+    return [import_module(".".join(("moyai", *home.relative_to(source).parts))) for home in sorted(homes)]
+
+
+def classes_handed_out():
+    """Classes that packages hand out, alone or in a module, and those of the product that they inherit from."""
+    things = [getattr(package, name) for package in packages() for name in package.__all__]
+    for module in filter(inspect.ismodule, list(things)):
+        things += [getattr(module, name) for name in public_names(module)]
+    bases = [base for one in things if inspect.isclass(one) for base in one.__mro__]
+    return [one for one in dict.fromkeys(bases) if one.__module__.startswith("moyai.")]
+
+
+def methods_of(cls):
+    """Public methods and properties that a class of the product defines itself: function and what it takes."""
+    found = {}
+    for key, one in vars(cls).items():
+        is_property = isinstance(one, property | functools.cached_property)
+        inner = next((getattr(one, at) for at in ("fget", "func", "__func__") if hasattr(one, at)), one)
+        function = inspect.unwrap(inner) if callable(inner) else None
+        # what libraries put into a class is not ours to describe
+        if key.startswith("_") or not inspect.isfunction(function) or not function.__module__.startswith("moyai."):
+            continue
+        names = list(inspect.signature(function).parameters)
+        found[key] = function, [] if is_property else names if isinstance(one, staticmethod) else names[1:]
+    return found
+
+
+METHODS = {
+    f"{cls.__module__}.{cls.__qualname__}.{key}": found
+    for cls in classes_handed_out()
+    for key, found in methods_of(cls).items()
+}
+
+
+def missing_from_method(function, takes):
+    """What the docstring of a method lacks: its line, words for what it takes, and the errors that its body raises."""
+    text = inspect.getdoc(function) or ""
+    sections = sections_of(text)
+    lacks = [] if re.match(r"\S.*?\.(?:\n\n|$)", text, re.DOTALL) else ["a sentence of what it does"]
+    entries = entries_of(sections, "Parameters")
+    named = {name.strip(" *") for entry in entries for name in entry.split(" : ")[0].split(",")}
+    lacks += [f"parameter {name}" for name in takes if name not in named]
+    tree = ast.parse(textwrap.dedent(inspect.getsource(function)))
+    raised = [ast.dump(node) for node in ast.walk(tree) if isinstance(node, ast.Raise)]
+    if any(re.search("InputError|ConvergenceError", one) for one in raised) and "Raises" not in sections:
+        lacks.append("Raises")
+    return lacks
+
+
+def test_the_classes_are_found():
+    assert len(METHODS) > 450 and set(METHODS) >= METHODS_INCOMPLETE
+    assert {"moyai.mooring.system.LineSystem.stiffness", "moyai.sea.spectrum.Spectrum.quantile"} <= set(METHODS)
+    assert METHODS["moyai.sea.spectrum.Spectrum.quantile"][1] == ["fraction"]
+
+
+def test_a_method_without_its_parts_is_noticed():
+    def at(self, width):
+        """Return it."""
+        raise InputError(width)  # noqa: F821
+
+    assert missing_from_method(at, ["width"]) == ["parameter width", "Raises"]
+
+
+@pytest.mark.parametrize("name", METHODS)
+def test_a_method_says_what_it_takes_and_raises(name):
+    lacks = missing_from_method(*METHODS[name])
+    if name in METHODS_INCOMPLETE:
+        assert lacks, f"{name} is complete: take it off the list"
+    else:
+        assert not lacks, f"{name} lacks {', '.join(lacks)}"

@@ -55,7 +55,20 @@ class Identification:
     notices: tuple[Notice, ...] = field(default=())
 
     def fit(self, method: str, component: int = 0) -> ForceFit:
-        """Return one fit."""
+        """Return the fit by one method of one component.
+
+        Parameters
+        ----------
+        method : str
+            Its name.
+        component : int
+            Number of the component of the force.
+
+        Raises
+        ------
+        InputError
+            When there is none.
+        """
         for entry in self.fits:
             if entry.method == method and entry.component == component:
                 return entry

@@ -100,7 +100,13 @@ class ForceRecord:
         return int(self.force.shape[1])
 
     def part(self, first: int, last: int) -> ForceRecord:
-        """Return the samples from ``first`` up to ``last`` (excluded)."""
+        """Return the samples from ``first`` up to ``last`` (excluded).
+
+        Parameters
+        ----------
+        first, last : int
+            Rows, ``last`` excluded.
+        """
         rows = slice(first, last)
         rate = None if self.acceleration is None else self.acceleration[rows]
         return ForceRecord(self.time[rows], self.force[rows], self.velocity[rows], rate)

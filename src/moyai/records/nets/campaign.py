@@ -93,7 +93,18 @@ class NetCampaign:
             )
 
     def specimen(self, name: str) -> Specimen:
-        """Return a net by its name."""
+        """Return a net by its name.
+
+        Parameters
+        ----------
+        name : str
+            As in the campaign.
+
+        Raises
+        ------
+        StopIteration
+            When there is none.
+        """
         return next(specimen for specimen in self.specimens if specimen.name == name)
 
 

@@ -79,6 +79,11 @@ class Record:
     def index(self, name: str) -> int:
         """Return the place of a channel.
 
+        Parameters
+        ----------
+        name : str
+            Of the channel.
+
         Raises
         ------
         InputError
@@ -97,17 +102,40 @@ class Record:
         return nominal_step(self.time)
 
     def between(self, start: float, end: float) -> Record:
-        """Return the samples with ``start <= time < end`` [s]."""
+        """Return the samples with ``start <= time < end`` [s].
+
+        Parameters
+        ----------
+        start, end : float
+            On the clock of the record [s].
+        """
         first, last = np.searchsorted(self.time, (start, end), side="left")
         return self.rows(slice(int(first), int(last)))
 
     def rows(self, chosen: slice) -> Record:
-        """Return some of the samples."""
+        """Return some of the samples.
+
+        Parameters
+        ----------
+        chosen : slice
+            Of the rows.
+        """
         flags = None if self.flags is None else self.flags[chosen]
         return replace(self, time=self.time[chosen], values=self.values[chosen], flags=flags)
 
     def select(self, names: Sequence[str]) -> Record:
-        """Return some of the channels, in the order asked for."""
+        """Return some of the channels, in the order asked for.
+
+        Parameters
+        ----------
+        names : sequence of str
+            Of the channels.
+
+        Raises
+        ------
+        InputError
+            For a channel that is not there.
+        """
         places = [self.index(name) for name in names]
         flags = None if self.flags is None else self.flags[:, places]
         return replace(
@@ -119,7 +147,20 @@ class Record:
         )
 
     def sound(self, name: str, *, refused: int = int(MISSING | SPIKE | UNIT | RANGE)) -> Array:
-        """Return a channel with NaN where one of the ``refused`` flags is set."""
+        """Return a channel (samples,), in its unit, with NaN where one of the ``refused`` flags is set.
+
+        Parameters
+        ----------
+        name : str
+            Of the channel.
+        refused : int
+            Sum of the flags.
+
+        Raises
+        ------
+        InputError
+            For a channel that is not there.
+        """
         place = self.index(name)
         values = self.values[:, place].copy()
         if self.flags is not None:

@@ -165,6 +165,11 @@ class LoggerSource:
     def format_of(self, path: Path) -> str:
         """Return the format of one file.
 
+        Parameters
+        ----------
+        path : Path
+            Of the file; only its ending counts.
+
         Raises
         ------
         InputError

@@ -173,5 +173,16 @@ class Survey:
             raise InputError(f"blocks of {self.block_length:g} s", parameter="blocks.length", allowed="greater than 0")
 
     def use_of(self, name: str) -> ChannelUse:
-        """Return what a channel is."""
+        """Return what a channel of this name is.
+
+        Parameters
+        ----------
+        name : str
+            Of the channel.
+
+        Raises
+        ------
+        StopIteration
+            When there is none.
+        """
         return next(channel for channel in self.channels if channel.name == name)

@@ -85,9 +85,14 @@ class CageNetwork:
         return [part.name for part in self.lines if part.kind == "anchor"]
 
     def net_tension(self, tension: Array) -> Array:
-        """Return the largest tension of each net over the width that a bar stands for, (..., bars) [N] -> (..., cages).
+        """Return the largest tension [N/m] of each net over the width that a bar stands for, (..., cages).
 
         The width [m] is half of each panel at the bar, over its length, as built [eq:net-tension].
+
+        Parameters
+        ----------
+        tension : ndarray (..., bars)
+            Of all bars of the network [N].
         """
         return np.stack(
             [

@@ -53,6 +53,18 @@ class CageLine:
         """Return the line with another stiffness and the same tension [N] over the same distance.
 
         Its damping keeps its share of the critical one, sqrt(stiffness).
+
+        Parameters
+        ----------
+        stiffness : float
+            Greater than 0 [N/m].
+        tension : float
+            Of the line now; not taut at 0 or less [N].
+
+        Raises
+        ------
+        InputError
+            When the line would need a length that is not positive.
         """
         span = self.length + tension / self.stiffness if tension > 0.0 else self.length
         length = span - tension / stiffness if tension > 0.0 else self.length
@@ -66,12 +78,28 @@ class CageLine:
         return replace(self, length=length, stiffness=stiffness, damping=damping)
 
     def span(self, pose: ArrayLike, centre: tuple[float, float]) -> float:
-        """Return the distance from anchor to attachment for x, z of the centre of gravity [m] and rotation [rad]."""
+        """Return the distance from anchor to attachment [m].
+
+        Parameters
+        ----------
+        pose : array_like (3,)
+            x, z of the centre of gravity [m] and rotation [rad].
+        centre : (float, float)
+            x, z of the centre of gravity from the middle of the cage [m].
+        """
         px, pz = self.place(pose, centre)
         return math.hypot(self.anchor[0] - px, self.anchor[1] - pz)
 
     def place(self, pose: ArrayLike, centre: tuple[float, float]) -> tuple[float, float]:
-        """Return where the attachment is for x, z of the centre of gravity [m] and rotation [rad]."""
+        """Return x, z of the attachment [m].
+
+        Parameters
+        ----------
+        pose : array_like (3,)
+            x, z of the centre of gravity [m] and rotation [rad].
+        centre : (float, float)
+            x, z of the centre of gravity from the middle of the cage [m].
+        """
         x, z, theta = (float(value) for value in np.asarray(pose))
         rx, rz = self.attachment[0] - centre[0], self.attachment[1] - centre[1]
         cosine, sine = math.cos(theta), math.sin(theta)

@@ -317,6 +317,14 @@ class RigidCage:
 
     @checks_words
     def attachment(self, where: Literal["top", "middle", "bottom"], side: float) -> tuple[float, float]:
-        """Return a point of the cage: ``top``, ``middle`` or ``bottom`` of the side at +x (side 1) or -x (-1) [m]."""
+        """Return x, z of a point on a side of the cage, from its middle [m].
+
+        Parameters
+        ----------
+        where : {"top", "middle", "bottom"}
+            Of the side.
+        side : float
+            1 at +x, -1 at -x.
+        """
         level = {"top": 0.5, "middle": 0.0, "bottom": -0.5}[where]
         return side * 0.5 * self.extent[0], level * self.extent[2]

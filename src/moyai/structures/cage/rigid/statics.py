@@ -44,7 +44,7 @@ class RigidCageEquilibrium:
 
     @property
     def place(self) -> Array:
-        """x, z, theta."""
+        """x, z [m], theta [rad], (3,)."""
         return np.array([self.x, self.z, self.theta])
 
 

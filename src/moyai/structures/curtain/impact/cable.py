@@ -86,7 +86,7 @@ class Impact:
 
     @property
     def span_ratio(self) -> float:
-        """R = B/l."""
+        """R = B/l [-]."""
         return self.span / self.length
 
     @property
