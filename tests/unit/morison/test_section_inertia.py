@@ -140,7 +140,7 @@ def test_awkward_sections_settle(name):
 @pytest.mark.slow
 def test_random_stars_settle():
     rng = np.random.default_rng(0)
-    for _ in range(40):
+    for _ in range(24):
         count = rng.integers(4, 10)
         angle = 2.0 * math.pi * (np.arange(count) + rng.uniform(0.1, 0.9, count)) / count
         radius = 10.0 ** rng.uniform(-0.7, 0.3, count)

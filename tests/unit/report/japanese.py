@@ -79,9 +79,10 @@ def compared(result: Result, file: str = "") -> tuple[list[str], int]:
 
 
 def words_of(result: Result, file: str = "") -> set[str]:
-    """Return the words of the case file of a result, and of the file of a study."""
+    """Return the words of the case file of a result, and of the file of a study, as they stand and at the beginning."""
     text = f"{file}\n{result.tree.attrs.get('case_text', '')}"
-    return set(latin_words(text.replace("_", " ").replace(":", " ")))
+    words = latin_words(text.replace("_", " ").replace(":", " "))
+    return {*words, *(word[:1].upper() + word[1:] for word in words)}
 
 
 def compared_document(document: Document, own: Collection[str] = ()) -> tuple[list[str], int]:

@@ -108,7 +108,7 @@ SHORTER: dict[str, dict[str, Any]] = {
     "tabata/kansai": {
         "waves": [TYPHOON],
         "settings.waves": {"realisations": 2}, "settings.limits": {"highest_speed": "1 m/s", "highest_height": "3 m"},
-        "settings.dynamic": {"cells_along": 8, "cells_down": 4},
+        "settings.dynamic.by_default": False,
     },
     "sawaragi/flume": {"waves[0].periods": ["2 s"], "settings.dynamic": {"cells_along": 8, "cells_down": 4}},
     "units/two_pontoons": FEW_POINTS

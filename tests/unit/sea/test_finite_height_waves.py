@@ -189,7 +189,7 @@ def test_nearly_all_random_waves_are_found_by_length_and_by_period():
     """Up to 97 % of the highest wave, kh from 0.12 to 32; what is refused is long and within 8 % of the highest."""
     rng = np.random.default_rng(99)
     refused = []
-    for _ in range(400):
+    for _ in range(250):
         depth, kh = 10.0 ** rng.uniform(-1.0, 3.0), 10.0 ** rng.uniform(math.log10(0.12), 1.5)
         length, share = 2.0 * math.pi * depth / kh, rng.uniform(0.02, 0.97)
         height, water = share * highest_steady_wave(length, depth), Water(depth, 1025.0, 9.81)
@@ -203,7 +203,7 @@ def test_nearly_all_random_waves_are_found_by_length_and_by_period():
         assert worst < 1e-3
         # a wave that misses its surface by more than is promised, of which it warns, is known within that residual
         assert again.wavelength == pytest.approx(length, rel=1e-6 if worst <= RESIDUAL else worst)
-    assert len(refused) <= 6
+    assert len(refused) <= 4
     assert all(share > 0.9 and kh < 0.35 for share, kh in refused)
 
 

@@ -128,7 +128,7 @@ def test_the_maximum_of_rayleigh_peaks_is_known():
 def test_intervals_cover_as_often_as_they_say(family, confidence):
     rng = np.random.default_rng(11)
     covered = 0
-    repetitions = 250
+    repetitions = 150
     for number in range(repetitions):
         if family == "gumbel":
             data, location = 10.0 + 2.0 * rng.gumbel(size=30), None

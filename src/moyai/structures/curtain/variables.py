@@ -140,7 +140,7 @@ VARIABLES: dict[str, tuple[str, str]] = {
     "cable_stiffness": ("N", "EA of model A"),
     "tension_coefficient": ("1", "C_T = T/(rho U^2 B d/2)"),
     "cauchy_number": ("1", "C_E = sqrt(EA/rho)/(h sqrt(gh))"),
-    "rise_ratio": ("1", "rise of the tension over sqrt(d/g)"),
+    "rise_ratio": ("1", "rise of the tension over √(d/g)"),
     "relative_step": ("1", "omega dt of the marching"),
     "time_step": ("s", "time step of the marching"),
     "spread": ("1", "largest over smallest tension of the models"),

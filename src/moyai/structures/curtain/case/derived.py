@@ -87,7 +87,7 @@ def _impact_numbers(unit: LevelCurtain, problem: CurtainProblem) -> Iterator[Num
     yield Number(group, level, "added mass 2 rho d^2/pi", impact.deep_mass, "kg/m")
     yield Number(group, level, "tension by model A", peak.tension, force_unit(peak.tension))
     yield Number(group, level, "rise of the tension t_peak", peak.time, "s")
-    yield Number(group, level, "t_peak/sqrt(d/g)", peak.time / math.sqrt(impact.draught / water.gravity), "", 3)
+    yield Number(group, level, "t_peak/√(d/g)", peak.time / math.sqrt(impact.draught / water.gravity), "", 3)
     if settings.time_step is not None:
         rise = small.time if math.isfinite(small.time) else peak.time
         yield Number(group, level, "marching step omega dt", 0.5 * math.pi * settings.time_step / rise, "", 3)

@@ -364,7 +364,7 @@ def check_impact(impact: Impact) -> tuple[Notice, ...]:
         notices.append(
             Notice(
                 "impact-slow",
-                f"The tension rises for {rise:.3g} sqrt(d/g); the added mass of infinite frequency is valid below "
+                f"The tension rises for {rise:.3g} √(d/g); the added mass of infinite frequency is valid below "
                 f"{_SHORT_RISE}, and the peak is higher with the memory of the waves",
                 rise,
                 _SHORT_RISE,

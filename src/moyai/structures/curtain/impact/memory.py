@@ -140,7 +140,7 @@ def impact_with_memory(impact: Impact) -> MemoryImpact:
         except ConvergenceError:
             continue
     raise ConvergenceError(
-        f"the tension still rises after {_LENGTHS[-1]:g} sqrt(d/g)",
+        f"the tension still rises after {_LENGTHS[-1]:g} √(d/g)",
         parameter="stiffness",
         remedy="take stiffer cables; so slow a rise is a drift, not an impact",
     )

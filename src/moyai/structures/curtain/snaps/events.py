@@ -160,7 +160,7 @@ def _check(impact: Impact, flow: SkirtFlow, rise: Array, tension: Array) -> tupl
             notices.append(
                 Notice(
                     "snap-slow",
-                    f"Half of the snaps have a rise time of more than {middle:.3g} sqrt(d/g); the added mass of "
+                    f"Half of the snaps have a rise time of more than {middle:.3g} √(d/g); the added mass of "
                     "infinite "
                     f"frequency is valid below {_SHORT_RISE}",
                     middle,
