@@ -248,7 +248,7 @@ class StructureKind(Kind):
         problem : Any
             As :meth:`build` returns it.
         progress : Progress
-            Is told how far the run is.
+            Called with how far the run is.
         keep : Path or None
             Nothing is kept without it.
         """
