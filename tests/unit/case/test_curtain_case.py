@@ -65,6 +65,7 @@ FAULTS = {
     "analysis twice": ("[statics, impact, waves", "[statics, impact, statics", "analyses", "is given twice"),
     "wrong unit": ("weight: 180 N/m", "weight: 180 N", "structure.toe.weight", "force per length"),
     "both ends of the toe's weight": ("weight: 180 N/m", "weight: 180 N/m, chain_mass: 20 kg/m", "structure.toe.chain_mass", "exclude each other"),
+    "density of no chain": ("weight: 180 N/m", "weight: 180 N/m, chain_density: 7000 kg/m3", "structure.toe.chain_density", "'chain_mass' in place of 'weight'"),
     "toe chain that floats": ("weight: 180 N/m", "chain_mass: 20 kg/m, chain_density: 1000 kg/m3", "structure.toe.chain_density", "more than 1025 kg/m3"),
     "range of the drag": ("range: [0.8, 1.4]", "range: [1.2, 1.4]", "structure.drag.range[0]", "at most 1"),
     "skirt that floats": ("submerged_weight: 3 N/m2", "submerged_weight: -60 N/m2", "structure.toe.weight", "the skirt floats"),

@@ -202,6 +202,12 @@ def skirt_of(model: schema.CurtainCase, water: Water) -> Skirt:
             remedy="give 'submerged_weight', or 'mass_per_area' with 'sheet_density'; 0 for a sheet as heavy as water",
         )
     load = toe.weight
+    if load is not None and "chain_density" in toe.model_fields_set:
+        raise InputError(
+            "the density of the chain is not used next to 'weight', which is that under water",
+            path="structure.toe.chain_density",
+            remedy="leave it out, or give 'chain_mass' in place of 'weight'",
+        )
     if load is None:
         if not toe.chain_density > water.density:
             raise InputError(
