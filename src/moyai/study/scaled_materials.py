@@ -65,7 +65,7 @@ def equivalents(block: Block, case: Case, path: str) -> dict[str, tuple[str, Fig
             figures["submerged_weight"] = (skirt.submerged_weight, "N/m2")
         return {"film": (block.film.material, figures)}
     if isinstance(block, schema_curtain.Toe):
-        if block.chain_mass is None:
+        if block.chain_mass is None or block.chain_density is not None:  # mass and density follow the scale together
             return {}
         return {"chain_mass": ("steel chain", {"weight": (_curtain(case).skirt.toe_load, "N/m")})}
     named = next((key for key in _MAKES if isinstance(getattr(block, key, None), str)), None)

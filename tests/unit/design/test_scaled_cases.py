@@ -340,7 +340,12 @@ def test_makes_of_a_curtain_become_figures(tmp_path):
     )
     text = text.replace("    submerged_weight: 4 N/m2 ", "    # weight of the film ")
     path.write_text(text, encoding="utf-8")
-    for case in (curtain_case(tmp_path), load_case(path)):
+    chain = "    chain_mass: 20 kg/m "
+    toes = [
+        curtain_case(tmp_path, **{chain: toe})
+        for toe in ("    weight: 170 N/m ", f"    chain_density: 7000 kg/m3\n{chain}")
+    ]
+    for case in (curtain_case(tmp_path), load_case(path), *toes):
         scale = Scale(float(rng.uniform(3, 40)), 1.025, 1.0)
         scaled = scale_case(case, scale, digits=17)
         sites = [item.model.site for item in (case, scaled.case)]

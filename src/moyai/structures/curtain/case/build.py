@@ -202,20 +202,21 @@ def skirt_of(model: schema.CurtainCase, water: Water) -> Skirt:
             remedy="give 'submerged_weight', or 'mass_per_area' with 'sheet_density'; 0 for a sheet as heavy as water",
         )
     load = toe.weight
-    if load is not None and "chain_density" in toe.model_fields_set:
+    if load is not None and toe.chain_density is not None:
         raise InputError(
             "the density of the chain is not used next to 'weight', which is that under water",
             path="structure.toe.chain_density",
             remedy="leave it out, or give 'chain_mass' in place of 'weight'",
         )
     if load is None:
-        if not toe.chain_density > water.density:
+        density = toe.chain_density or schema.STEEL_DENSITY
+        if not density > water.density:
             raise InputError(
-                f"a chain of {toe.chain_density:g} kg/m3 floats",
+                f"a chain of {density:g} kg/m3 floats",
                 path="structure.toe.chain_density",
                 allowed=f"more than {water.density:g} kg/m3",
             )
-        load = (toe.chain_mass or 0.0) * water.gravity * (1.0 - water.density / toe.chain_density)
+        load = (toe.chain_mass or 0.0) * water.gravity * (1.0 - water.density / density)
     try:
         return Skirt(given.length, weight, load, stiffness if stiffness is not None else math.inf)
     except InputError as error:

@@ -41,7 +41,8 @@ def _span_numbers(unit: LevelCurtain, toe: schema.Toe) -> Iterator[Number]:
     yield Number(group, level, "span ratio R = B/l", curtain.span / curtain.length)
     yield Number(group, level, "depth ratio h/d", water.depth / curtain.skirt.length)
     if toe.chain_mass is not None:
-        yield Number(group, level, "density of the toe chain", toe.chain_density, "kg/m3")
+        density = toe.chain_density or schema.STEEL_DENSITY
+        yield Number(group, level, "density of the toe chain", density, "kg/m3")
     yield Number(group, level, "toe load under water", curtain.skirt.toe_load, "N/m")
     yield Number(group, level, "weight of skirt and toe on the floats", unit.hanging.net_weight, "N/m")
     yield Number(

@@ -44,6 +44,7 @@ from moyai.core import quantities
 from moyai.core.quantities import QuantityKind
 from moyai.structures.curtain.case.criteria import CurtainCriteria, CurtainKeeps
 
+STEEL_DENSITY = 7850.0  # kg/m3
 _WEIGHT_PER_AREA = QuantityKind("a weight per area", "N/m2", "newtons per square metre", "8 N/m2")
 
 Analysis = Literal["statics", "impact", "waves", "anchor_loads", "limits", "dynamic"]
@@ -121,8 +122,8 @@ class Toe(Block):
         default=None,
         description="Mass in air of a chain, per length; its weight in water follows with 'chain_density'.",
     )
-    chain_density: Density = Field(
-        default=7850.0, description="Of the chain of 'chain_mass'. Default: 7850 kg/m3, steel."
+    chain_density: Density | None = Field(
+        default=None, description="Of the chain of 'chain_mass'; that of steel, 7850 kg/m3, where it is left out."
     )
     range: tuple[LowFactor, HighFactor] = Field(
         default=(0.9, 1.1),
@@ -455,7 +456,8 @@ class Dynamic(Block):
         default=0.0, description="Shear modulus times thickness, with 'span_stiffness'. Default: 0."
     )
     ballast_density: Density = Field(
-        default=7850.0, description="Of lower cable, chain and ballast, for their mass. Default: 7850 kg/m3, steel."
+        default=STEEL_DENSITY,
+        description="Of lower cable, chain and ballast, for their mass. Default: 7850 kg/m3, steel.",
     )
     float_height: PositiveLength | None = Field(
         default=None, description="Height of the floats; absent: of a round float with the buoyancy given."
