@@ -82,11 +82,11 @@ def _acceleration(
 ) -> None:  # fmt: skip
     """Write the accelerations of all lanes [eq:floating-cummins]."""
     inverse, damping, stiffness, rows, quadratic = body
-    m, columns = q.shape[0], force.shape[2]
+    m, columns, last = q.shape[0], force.shape[2], force.shape[0] - 1  # lanes beyond the last record are not kept
     measure = np.empty(LANES)
     for i in range(m):
         for lane in range(LANES):
-            work[i, lane] = force[lane, row, i] - memory[i, lane] - rest[i]
+            work[i, lane] = force[min(lane, last), row, i] - memory[i, lane] - rest[i]
         for j in range(m):
             a, b = damping[i, j], stiffness[i, j]
             for lane in range(LANES):
@@ -96,7 +96,7 @@ def _acceleration(
     still = quadratic.size - (columns - m)
     for k in range(quadratic.size):
         for lane in range(LANES):
-            measure[lane] = -force[lane, row, m + k - still] if k >= still else 0.0
+            measure[lane] = -force[min(lane, last), row, m + k - still] if k >= still else 0.0
         for j in range(m):
             a = rows[k, j]
             for lane in range(LANES):
@@ -127,8 +127,8 @@ def run_lanes(
 ) -> None:  # fmt: skip
     """Advance all lanes that are going; see :func:`moyai.floating.kernel.run_state_space`.
 
-    ``q``, ``v`` (m, lanes) and the states of the memory (n, lanes) change in place; ``force`` (lanes, 2 n + 1, m + w);
-    ``saved`` as there, lanes first. ``good`` counts the good steps of each lane; one that is lost stops ``going``.
+    ``q``, ``v`` (m, lanes) and the states of the memory (n, lanes) change in place; ``force`` (records, 2 n + 1, m + w);
+    ``saved`` as there, records first. ``good`` counts the good steps of each lane; one that is lost stops ``going``.
     """
     half, full, weight, f1, f2, f3 = exponential
     m, n = q.shape[0], real.shape[0]

@@ -120,18 +120,18 @@ def _marched(
     steps = math.ceil(duration / step - 1e-9)
     started = clock.process_time()
     elevations: list[Array] = []
-    force = np.zeros((LANES, 0, 0))
+    force = np.zeros((count, 0, 0))
     for lane, forcing in enumerate(forcings):
         own, elevation = forcing.sample(0.5 * step, 2 * steps + 1)
         if not lane:
-            force = np.zeros((LANES, *own.shape))
+            force = np.empty((count, *own.shape))
         force[lane] = finite(own, "force")
-        elevations.append(elevation[::2])
+        elevations.append(elevation[::2].copy())
     sampled = clock.process_time() - started
     lines, rest, line_count = packed_lines(model.mooring, size)
     starts = np.repeat(lines[5][None], LANES, axis=0)
     rows = steps + 1
-    saved = tuple(np.zeros((LANES, rows, columns)) for columns in (size, size, size, line_count))
+    saved = tuple(np.zeros((count, rows, columns)) for columns in (size, size, size, line_count))
     if model.mooring is not None:
         saved[2][:, 0, :3], saved[3][:, 0] = model.mooring.force_and_tension(np.zeros(3))
     limit = np.full(size, 1e30 if model.mooring is None else 1e3 * model.mooring.reach)
