@@ -127,8 +127,9 @@ def run_lanes(
 ) -> None:  # fmt: skip
     """Advance all lanes that are going; see :func:`moyai.floating.kernel.run_state_space`.
 
-    ``q``, ``v`` (m, lanes) and the states of the memory (n, lanes) change in place; ``force`` (records, 2 n + 1, m + w);
-    ``saved`` as there, records first. ``good`` counts the good steps of each lane; one that is lost stops ``going``.
+    ``q``, ``v`` (m, lanes) and the states of the memory (n, lanes) change in place; ``force`` is (records, 2 n + 1,
+    m + w); ``saved`` as there, records first. ``good`` counts the good steps of each lane; one that is lost stops
+    ``going``.
     """
     half, full, weight, f1, f2, f3 = exponential
     m, n = q.shape[0], real.shape[0]

@@ -1,9 +1,8 @@
-"""Processes on this machine: started afresh, one thread each, replaced when they die."""
+"""Processes on this machine: one thread each, replaced when they die."""
 
 from __future__ import annotations
 
 import contextlib
-import multiprocessing
 import os
 import signal
 from collections import deque
@@ -12,7 +11,8 @@ from multiprocessing.connection import wait
 from typing import Any
 
 from moyai.core.errors import InputError
-from moyai.core.processes import collect_rarely, die_with_parent
+from moyai.core.kinds import kind_named, structure_kind
+from moyai.core.processes import Starter, collect_rarely, die_with_parent
 from moyai.core.progress import Progress, silent
 from moyai.study.axes import Combination
 from moyai.study.ledger import LedgerRecord
@@ -53,14 +53,14 @@ def run_processes(task: Task, cases: tuple[Combination, ...], workers: int) -> I
     InputError
         When workers cannot be started at all.
     """
-    # Spawn: OpenMP and the numba thread pool do not survive a fork
-    context = multiprocessing.get_context("spawn")
-    cancel = context.Event()
+    kind = kind_named(task.base.data)
+    starter = Starter("moyai.study.warm", *([f"{structure_kind(kind).package}.run"] if kind else []))
+    cancel = starter.context.Event()
     waiting = deque((combination, 0) for combination in cases)
     crew: list[_Worker] = []
     with _one_thread():
         try:
-            crew = [_Worker(context, task, cancel) for _ in range(min(workers, len(cases)))]
+            crew = [_Worker(starter, task, cancel) for _ in range(min(workers, len(cases)))]
             while waiting or any(worker.busy for worker in crew):
                 for worker in crew:
                     if waiting and not worker.busy:
@@ -93,7 +93,7 @@ def run_processes(task: Task, cases: tuple[Combination, ...], workers: int) -> I
                     worker.end()
                     crew.remove(worker)
                     if waiting:
-                        crew.append(_Worker(context, task, cancel))
+                        crew.append(_Worker(starter, task, cancel))
         finally:
             cancel.set()
             for worker in crew:
@@ -103,10 +103,9 @@ def run_processes(task: Task, cases: tuple[Combination, ...], workers: int) -> I
 class _Worker:
     """One process with its pipe."""
 
-    def __init__(self, context: Any, task: Task, cancel: Any) -> None:
-        self.pipe, far = context.Pipe()
-        self.process = context.Process(target=_serve, args=(far, task, cancel), daemon=True)
-        self.process.start()
+    def __init__(self, starter: Starter, task: Task, cancel: Any) -> None:
+        self.pipe, far = starter.context.Pipe()
+        self.process = starter.start(_serve, far, task, cancel)
         far.close()
         self.job: tuple[Combination, int] | None = None
         self.started = False

@@ -17,10 +17,11 @@ from moyai.core.kinds import structure_kind
 
 KINDS = ("breakwater", "curtain", "cage", "network", "member")
 
-#: A short sea, few periods and few realisations call what all of a template call
+#: A short sea, few periods and realisations and a coarse mesh call what all of a template call
 SHORTER = (
     ("duration: 30 min", "duration: 1 min"), ("duration: 3 h", "duration: 10 min"), ("count: 11", "count: 3"),
-    ("realisations: 5}", "realisations: 2}"),
+    ("realisations: 5}", "realisations: 2}"), ("realisations: auto", "realisations: 2"),
+    ("around: 32, down: 6, bottom: 4", "around: 16, down: 3, bottom: 3"),
 )  # fmt: skip
 
 # What a run loads into an empty process, at the outermost calls

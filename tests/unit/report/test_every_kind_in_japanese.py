@@ -118,6 +118,14 @@ SHORTER: dict[str, dict[str, Any]] = {
     },
 }  # fmt: skip
 
+#: Fewer cases of studies, with which a report has the same words.
+FEWER = {
+    "best_line": {"[0.2, 0.3, 0.4]": "[0.2, 0.4]", "evaluations: 20": "evaluations: 8"},
+    "curtain_anchors": {"[0.1 m/s, 0.3 m/s, 0.5 m/s]": "[0.1 m/s, 0.5 m/s]", "[4 m, 5 m, 6 m]": "[4 m, 6 m]"},
+    "operating_limits": {"0 m/s, 0.4 m/s, 0.8 m/s, 0.9 m/s, 1.0 m/s": "0 m/s, 1.0 m/s"},
+    "sea_states": {"[0.5 m, 0.8 m]": "[0.8 m]", "count: 3": "count: 2"},
+}
+
 
 def assert_japanese(case: Case, least: int, name: str = "", *, on_paper: bool = True) -> None:
     """Run a case, shorter where its name is in the list, and hold its report in Japanese against that in English."""
@@ -180,11 +188,18 @@ def test_examples(path: Path) -> None:
 @pytest.mark.slow
 @pytest.mark.parametrize("path", STUDIES, ids=lambda path: path.stem)
 def test_studies(path: Path, tmp_path: Path) -> None:
-    found = CliRunner().invoke(app, ["--language", "ja", "study", str(path), "-o", str(tmp_path / "out")])
+    text = path.read_text(encoding="utf-8")
+    for many, few in FEWER[path.stem].items():
+        assert many in text
+        text = text.replace(many, few)
+    text = re.sub(r"base: (\S+)", lambda found: f"base: {(path.parent / found[1]).resolve()}", text)
+    (tmp_path / path.name).write_text(text, encoding="utf-8")
+    command = ["--language", "ja", "study", str(tmp_path / path.name), "-o", str(tmp_path / "out")]
+    found = CliRunner().invoke(app, command)
     assert found.exit_code == 0, found.output
     page = (tmp_path / "out" / "report.html").read_text(encoding="utf-8")
     assert '<html lang="ja">' in page and missing_in_page(page) == set()
-    hold(read_result(tmp_path / "out" / "study.nc"), 100, path.read_text(encoding="utf-8"))
+    hold(read_result(tmp_path / "out" / "study.nc"), 100, text)
 
 
 @pytest.mark.slow
