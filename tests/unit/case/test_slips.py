@@ -149,8 +149,8 @@ def test_slips_in_designs_that_the_ranges_did_not_see_are_reported():
 
 
 @pytest.mark.slow
-def test_four_of_five_slips_of_a_thousand_are_reported():
-    found = [slip for name, text, folder in slips.sources() for slip in slips.slips(name, text, folder, every=2)]
+def test_four_of_five_slips_of_five_hundred_are_reported():
+    found = [slip for name, text, folder in slips.sources() for slip in slips.slips(name, text, folder, every=4)]
     print(slips.table(found))
     assert {slip.outcome for slip in found} <= {"stopped", "warned", "silent"}
     for structure in {slip.structure for slip in found}:

@@ -121,8 +121,6 @@ SHORTER: dict[str, dict[str, Any]] = {
 #: Fewer cases of studies, with which a report has the same words.
 FEWER = {
     "best_line": {"[0.2, 0.3, 0.4]": "[0.2, 0.4]", "evaluations: 20": "evaluations: 8"},
-    "curtain_anchors": {"[0.1 m/s, 0.3 m/s, 0.5 m/s]": "[0.1 m/s, 0.5 m/s]", "[4 m, 5 m, 6 m]": "[4 m, 6 m]"},
-    "operating_limits": {"0 m/s, 0.4 m/s, 0.8 m/s, 0.9 m/s, 1.0 m/s": "0 m/s, 1.0 m/s"},
     "sea_states": {"[0.5 m, 0.8 m]": "[0.8 m]", "count: 3": "count: 2"},
 }
 
@@ -189,7 +187,7 @@ def test_examples(path: Path) -> None:
 @pytest.mark.parametrize("path", STUDIES, ids=lambda path: path.stem)
 def test_studies(path: Path, tmp_path: Path) -> None:
     text = path.read_text(encoding="utf-8")
-    for many, few in FEWER[path.stem].items():
+    for many, few in FEWER.get(path.stem, {}).items():
         assert many in text
         text = text.replace(many, few)
     text = re.sub(r"base: (\S+)", lambda found: f"base: {(path.parent / found[1]).resolve()}", text)
