@@ -6,10 +6,13 @@ import gc
 import multiprocessing
 import os
 import sys
+import tempfile
 import threading
 from collections.abc import Callable
 from multiprocessing.connection import wait
 from typing import Any
+
+LONGEST_FOLDER = 70  # letters of a folder whose sockets have a name of at most 107
 
 
 class Starter:
@@ -25,8 +28,10 @@ class Starter:
     """
 
     def __init__(self, *modules: str) -> None:
-        self.context: Any = multiprocessing.get_context("forkserver" if sys.platform == "linux" else "spawn")
-        if sys.platform == "linux":
+        # the socket of the process that is forked has room for a short folder of temporary files only
+        forks = sys.platform == "linux" and len(tempfile.gettempdir()) <= LONGEST_FOLDER
+        self.context: Any = multiprocessing.get_context("forkserver" if forks else "spawn")
+        if forks:
             self.context.set_forkserver_preload(list(modules))
 
     def start(self, target: Callable[..., None], *arguments: Any) -> Any:
