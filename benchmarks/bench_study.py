@@ -11,7 +11,10 @@ What a thousand workers ask of a scheduler is measured by bench_study_scale.py.
 from __future__ import annotations
 
 import json
+import os
 import shutil
+import subprocess
+import sys
 import tempfile
 import time
 from pathlib import Path
@@ -74,6 +77,17 @@ def timed(study: Study, run: Any, workers: int, on: Any = None) -> tuple[float, 
     return out
 
 
+def from_the_command(folder: Path, temporary: str) -> float:
+    """Return the seconds that pass for a study of 12 sea states on two processes, kernels compiled."""
+    study_of(folder, 12, 1)
+    (folder / temporary).mkdir(exist_ok=True)
+    command = [sys.executable, "-m", "moyai", "study", str(folder / "study.yaml"), "-q", "--workers", "2"]
+    began = time.perf_counter()
+    subprocess.run([*command, "-o", str(folder / "out" / temporary)], check=True, stdout=subprocess.DEVNULL,
+                   env=os.environ | {"TMPDIR": str(folder / temporary)})  # fmt: skip
+    return time.perf_counter() - began
+
+
 def main() -> None:
     """Run and print."""
     folder = Path(tempfile.mkdtemp())
@@ -92,6 +106,11 @@ def main() -> None:
     two, _ = timed(hundred, busy, 2)
     print(json.dumps({"what": "100 cases of one second", "one_process_s": one, "two_processes_s": two,
                       "efficiency": one / (2 * two), "note": "start of the processes included"}))  # fmt: skip
+    # workers are forked where the folder of temporary files has a short name, on Linux; else each imports by itself
+    from_the_command(folder, "first")
+    forked, spawned = (from_the_command(folder, name) for name in ("t", "t" * 80))
+    print(json.dumps({"what": "12 sea states from the command line, two processes", "forked_s": forked,
+                      "spawned_s": spawned, "ratio": forked / spawned}))  # fmt: skip
     try:
         from distributed import LocalCluster
     except ImportError:

@@ -58,7 +58,7 @@ def test_results_and_report_are_of_one_run_after_every_kill(tmp_path):
     assert running.wait() == 0
     writing = time.monotonic() - began
     while ended < 3:
-        assert number < 12, "a run wrote its files and ended before it was killed, nine times"
+        assert number < 12, "of twelve runs fewer than three were still at work when they were killed"
         running = _start(tmp_path, ("second", "first")[number % 2])
         _until_files_change(running, out)
         began = time.monotonic()
