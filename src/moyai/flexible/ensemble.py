@@ -9,7 +9,7 @@ they do not serve is run by itself.
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field, fields, replace
 from typing import Any
 
@@ -263,7 +263,7 @@ def simulate_together(
     keep_nodes, keep_bars : array_like of int, optional
         Which to keep in the result; all when left out.
     progress : Progress
-        Called with the number of members that are done.
+        Called with the number of members that are done, those on the way by the part of their rows.
 
     Returns
     -------
@@ -334,7 +334,12 @@ def simulate_together(
         plan = _plan(network, start, waves, (spacing, look), (step, safety, 1 if quick else load_steps, drag_rate))
         while left:
             chosen, left = np.array(left[:together]), left[together:]
-            run = _march(network, [members[m] for m in chosen], start, plan, rows, (nodes, bars))
+            done = int(out.complete.sum())
+
+            def marched(share: float, done: int = done, size: int = len(chosen)) -> None:
+                progress("members", done + share * size, count)
+
+            run = _march(network, [members[m] for m in chosen], start, plan, rows, (nodes, bars), marched)
             if not run.sound.all():
                 # the others in an array with one that blew up begin anew without it
                 left = [*chosen[run.sound], *left]
@@ -421,8 +426,10 @@ class _Marched:
 
 
 def _march(
-    network: Network, members: Sequence[Member], start: State, plan: _Plan, rows: int, keep: tuple[IntArray, IntArray]
-) -> _Marched:
+    network: Network, members: Sequence[Member], start: State, plan: _Plan, rows: int, keep: tuple[IntArray, IntArray],
+    marched: Callable[[float], None],
+) -> _Marched:  # fmt: skip
+    """March members side by side; ``marched`` is called with the part of the rows that is done."""
     count, size, bars = len(members), len(network.nodes), len(network.bars)
     tiled = side_by_side(network, count)
     motions = {f"{name} {m}": motion for m, member in enumerate(members) for name, motion in member.motions.items()}
@@ -453,6 +460,7 @@ def _march(
             sound = sound if not sound.all() else ~sound
             break
         done += chunk
+        marched(done / rows)
     drag = run.packed.bar_row(FASTEST).reshape(count, bars).max(axis=1, initial=0.0)
     attached = run.packed.node_rows(FASTEST_ATTACHED, 1).reshape(count, size).max(axis=1, initial=0.0)
     quickest = np.maximum(drag, attached) * plan.step

@@ -9,7 +9,7 @@ from moyai.core.headline import Criterion, judge
 from moyai.structures.cage.bands import UNSETTLED, LevelState, reach
 from moyai.structures.cage.flexible.checks import settling_notices
 from moyai.structures.cage.flexible.problem import FlexibleSettings
-from moyai.structures.cage.flexible.time import run_cage
+from moyai.structures.cage.flexible.time import Settling, run_cage
 from moyai.structures.cage.headlines import _anchor, _volume
 from moyai.structures.cage.rigid.waves import wave_of
 from moyai.structures.cage.settling import by_period, is_settled, limit_of, scatters, still_to_come
@@ -98,7 +98,7 @@ def test_a_cage_is_run_until_its_periods_repeat():
     model, rest = at_sea(0.3)
     wave = wave_of("linear", 2.0, 5.0, 0.0, model.water, 0.3, 2)
     settings = FlexibleSettings(("time",), periods=2, ramp_periods=2.0, rows_per_period=20)
-    found = run_cage(model, rest, wave, settings, settle=True)
+    found = run_cage(model, rest, wave, settings, enough=Settling(rest, wave, settings))
     number = found.wave.duration / 5.0
     assert 9 <= number < 40 and number == pytest.approx(round(number), abs=1e-6)
     assert found.history.status == "converged"

@@ -107,6 +107,12 @@ def scatters(values: Array, scale: float) -> bool:
     return bool(np.ptp(about) > SCATTER * scale)
 
 
+def may_reach(values: Array, limit: float) -> bool:
+    """Return whether periods that never repeat may reach a limit: their highest, and once more their range above it."""
+    last = np.asarray(values[-BLOCK * BLOCKS :])
+    return bool(last.max() + np.ptp(last) >= limit)
+
+
 def change_per_period(values: Array) -> float:
     """Return the change of the last periods in one period, the mean over the last two blocks."""
     blocks = np.asarray(values[-2 * BLOCK :])

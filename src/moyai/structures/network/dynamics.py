@@ -3,17 +3,19 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field, replace
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
 from moyai.core.arrays import Array
+from moyai.core.at_once import at_once
 from moyai.core.errors import ConvergenceError, InputError
 from moyai.core.progress import Progress, silent
 from moyai.core.validity import IdentityCheck, Notice
 from moyai.coupled.equilibrium import CoupledEquilibrium
+from moyai.flexible.motion import Motion
 from moyai.flexible.result import History, State
 from moyai.flexible.sensitivity import PeakSensitivity, peak_sensitivity
 from moyai.flexible.simulation import simulate
@@ -43,6 +45,10 @@ from moyai.structures.network.settling import drift_of_all, led_points, settled
 
 if TYPE_CHECKING:
     import xarray as xr
+
+
+#: What is known of the accuracy of a peak, what is to be reported, and the history, marked where the user ended it.
+_Accuracy = tuple[PeakSensitivity | None, list[Notice], History]
 
 
 @dataclass(frozen=True, eq=False)
@@ -162,17 +168,15 @@ def run(
     if coupled is not None:
         notices += capsized(series)
     why = doubt(assembly, history, snaps, governing)
-    sensitivity, peak_notices_found, history = _peak_uncertainty(
-        problem, assembly, plan, (begin, hung), (history, coupled), (governing, worst, why), earlier, reported
+    starts, peak = (begin, still if earlier is None else None), (governing, worst, why)
+
+    def find_accuracy(heard: Progress) -> _Accuracy:
+        return _peak_uncertainty(problem, assembly, plan, (begin, hung), (history, coupled), peak, earlier, heard)
+
+    (sensitivity, found, history), others = _accuracy_and_others(
+        problem, assembly, plan, history, motions, starts, bool(why), find_accuracy, progress
     )
-    notices += peak_notices_found
-    others: Realisations | None = None
-    if earlier is None and still is not None:
-        try:
-            others = realisations_of(problem, assembly, plan, history, motions, (begin, still), bool(why), progress)
-        except KeyboardInterrupt:
-            message = "interrupted while further realisations were run; the run itself is complete"
-            history = replace(history, status="interrupted", message=message)
+    notices += found
     notices += left_out(problem, plan, history) if others is None else others.notices()
     if others is not None and not drift.point and problem.current_field is None:
         names = [str(name) for name in series["point"].values]
@@ -189,6 +193,46 @@ def run(
         tuple(replace(check, name=f"{prefix}{check.name}") for check in history.checks), why, failure, safe, others,
         few,
     )  # fmt: skip
+
+
+def _accuracy_and_others(
+    problem: NetworkProblem,
+    assembly: Assembly,
+    plan: RunPlan,
+    history: History,
+    motions: dict[str, Motion],
+    starts: tuple[State, Array | None],
+    doubtful: bool,
+    find_accuracy: Callable[[Progress], _Accuracy],
+    progress: Progress,
+) -> tuple[_Accuracy, Realisations | None]:
+    """Find the accuracy of a peak and run further realisations, both at once; none without places in still water.
+
+    The history is marked where the user ended this part.
+    """
+    accuracy: list[_Accuracy] = []
+    further: list[Realisations | None] = []
+    begin, still = starts
+
+    def one(number: int, heard: Progress) -> None:
+        def told(what: str, done: float, total: float) -> None:
+            heard(f"accuracy, {plan.name}", done, total)
+
+        if number == 0:
+            accuracy.append(find_accuracy(told))
+        elif still is not None:
+            given = motions, (begin, still), doubtful
+            further.append(realisations_of(problem, assembly, plan, history, *given, heard))
+
+    message = ""
+    try:
+        at_once(one, 2, progress)
+    except KeyboardInterrupt:
+        message = "interrupted while further realisations were run; the run itself is complete"
+    sensitivity, notices, history = accuracy[0] if accuracy else (None, [], history)
+    if message and history.status == "converged":
+        history = replace(history, status="interrupted", message=message)
+    return (sensitivity, notices, history), further[0] if further else None
 
 
 def _failure(
@@ -236,7 +280,7 @@ def _peak_uncertainty(
     peak: tuple[str, int, str],
     earlier: Earlier | None,
     reported: Progress,
-) -> tuple[PeakSensitivity | None, list[Notice], History]:
+) -> _Accuracy:
     """Find the uncertainty of the peak of a run: as asked for, or as far as it costs little.
 
     ``peak`` is the line, its bar and why the peak is doubtful. Returns what was found, what is to be reported, and the

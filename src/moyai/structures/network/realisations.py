@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from functools import partial
 
 import numpy as np
 
@@ -146,19 +147,24 @@ def realisations_of(
     anchors = _anchors(problem, assembly)
     rows = [_largest(assembly, own, 0, counted, origin, anchors)]
     # one after the other in groups, so that the series of all are never in memory
-    group = max(1, members_together(network))
+    group, words = max(1, members_together(network)), f"realisations, {plan.name}"
     for first in range(1, count, group):
-        progress(f"realisations, {plan.name}", first, count)
+        progress(words, first, count)
         chosen = seeds[first : first + group]
         flows = [flow_of_seed(problem, plan, network.water, int(seed)) for seed in chosen]
         found = simulate_together(
             network, [Member(motions, flow) for flow in flows], duration=plan.duration, output_step=plan.output_step,
             interval=plan.flow.update_interval, start=begin, step=problem.settings.step,
             safety=1.0 if problem.settings.wave_front else None, keep_nodes=nodes, drag_rate=history.drag_rate,
+            progress=partial(_told, progress, words, first, count),
         )  # fmt: skip
         rows += [_largest(assembly, found, m, counted, origin, anchors) for m in range(len(flows))]
-    progress(f"realisations, {plan.name}", count, count)
+    progress(words, count, count)
     return Realisations(seeds, *(np.array(values) for values in zip(*rows, strict=True)))
+
+
+def _told(progress: Progress, words: str, before: int, count: int, what: str, done: float, total: float) -> None:
+    progress(words, before + done, count)
 
 
 def _nodes(assembly: Assembly) -> IntArray:

@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from moyai.core.at_once import each_counted
 from moyai.core.progress import Progress, silent
 from moyai.morison.net_law_base import NetLaw
 from moyai.morison.net_law_choice import METAL, LawChoice, law_choice
@@ -58,16 +59,14 @@ def laws_dataset(
 
     choice = choice_of(model, speed)
     laws: tuple[NetLaw, ...] = (choice.chosen, *choice.others)
-    rows, lines = [], []
-    for number, law in enumerate(laws):
-        progress("laws of nets", number, len(laws))
-        found = rest
-        if number:
-            other = replace(model, design=replace(model.design, net=replace(model.design.net, law=law)))
-            found = solve_cage_equilibrium(other, build_cage(other), rest.current, start=rest.state)
-        lines.append(_line_tensions(found))
-        rows.append(_numbers(model, found, calm, heading, lines[-1]))
-    progress("laws of nets", len(laws), len(laws))
+
+    def at_rest(law: NetLaw, heard: Progress) -> CageEquilibrium:
+        other = replace(model, design=replace(model.design, net=replace(model.design.net, law=law)))
+        return solve_cage_equilibrium(other, build_cage(other), rest.current, start=rest.state, progress=heard)
+
+    found = [rest, *each_counted("laws of nets", at_rest, choice.others, progress)]
+    lines = [_line_tensions(one) for one in found]
+    rows = [_numbers(model, one, calm, heading, own) for one, own in zip(found, lines, strict=True)]
     coefficients = [
         float(law.coefficients(0.0, speed, model.design.net.net, model.kinematic_viscosity)[0]) for law in laws
     ]

@@ -40,7 +40,8 @@ from moyai.structures.cage.flexible.parts import CageNetwork
 from moyai.structures.cage.flexible.problem import FlexibleCageProblem
 from moyai.structures.cage.flexible.sensitivity import REST, mesh_dataset, rest_mesh_dataset, sensitivity_dataset
 from moyai.structures.cage.flexible.statics import cage_dataset, statics_dataset
-from moyai.structures.cage.flexible.time import run_cage, time_dataset
+from moyai.structures.cage.flexible.time import CageRun, Settling, run_cage, time_dataset
+from moyai.structures.cage.flexible.two_meshes import run_on_two_meshes
 from moyai.structures.cage.flexible.variables import VOCABULARY
 from moyai.structures.cage.flexible.wake import ScaledCurrent
 from moyai.structures.cage.headlines import flexible_headlines
@@ -194,11 +195,17 @@ def _sea_steps(
 ) -> Iterator[None]:
     waves = waves_of(problem, sea, model.water)
     governing: tuple[float, WaveCase] | None = None
+    other: CageRun | BaseException | None = None
+    meshes = "sensitivity" not in problem.settings.analyses
     for number, wave in enumerate(waves):
         progress(f"time, {sea.name}", number, len(waves))
         label = f"wave {number + 1}" if wave.regular else "sea"
         if "time" in problem.settings.analyses:
-            found = run_cage(model, rest, wave, problem.settings, settle=True, progress=progress)
+            if meshes and wave.regular and len(waves) == 1:
+                found, other = run_on_two_meshes(model, rest, wave, problem.settings, progress)
+            else:
+                enough = Settling(rest, wave, problem.settings)
+                found = run_cage(model, rest, wave, problem.settings, enough=enough, progress=progress)
             series = time_dataset(model, found, problem.settings)
             collected.groups[f"{root}/time/{sea.name}/{label}"] = series
             collected.checks.extend(run_checks(sea.name, found))
@@ -223,9 +230,9 @@ def _sea_steps(
                 model, rest, replace(wave, duration=min(wave.duration, 6.0 * wave.period)), problem.settings, progress
             )
             yield
-    if governing is not None and "sensitivity" not in problem.settings.analyses:
+    if governing is not None and meshes:
         try:
-            changed, coarse = mesh_dataset(model, governing[1].run, problem.settings, progress)
+            changed, coarse = mesh_dataset(model, governing[1].run, problem.settings, progress, other)
         except (ConvergenceError, InputError) as error:
             words = f"{sea.name}: the coarser mesh that is run to check the mesh fails: {error.fault.message}"
             collected.notices.append(Notice("mesh-not-checked", words, severity="warning"))

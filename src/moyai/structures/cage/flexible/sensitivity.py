@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from moyai.core.at_once import each_at_once
 from moyai.core.progress import Progress, silent
 from moyai.structures.cage.flexible.build import build_cage
 from moyai.structures.cage.flexible.equilibrium import (
@@ -184,7 +185,7 @@ def coarse_model(model: FlexibleCage) -> FlexibleCage:
     return replace(model, mesh=coarser(model.mesh))
 
 
-def coarse_run(model: FlexibleCage, run: CageRun, settings: FlexibleSettings) -> CageRun:
+def coarse_run(model: FlexibleCage, run: CageRun, settings: FlexibleSettings, progress: Progress = silent) -> CageRun:
     """Return the run of a cage on the coarser mesh through the wave of another run, as long as that.
 
     Parameters
@@ -194,10 +195,12 @@ def coarse_run(model: FlexibleCage, run: CageRun, settings: FlexibleSettings) ->
     run : CageRun
         Of a sea the first six periods are run, or those that its wave is (:func:`governing_part`).
     settings : FlexibleSettings
+    progress : Progress
     """
     other = coarse_model(model)
     wave = run.wave if run.wave.regular else governing_part(run)
-    return run_cage(other, solve_cage_equilibrium(other, build_cage(other), run.rest.current), wave, settings)
+    rest = solve_cage_equilibrium(other, build_cage(other), run.rest.current)
+    return run_cage(other, rest, wave, settings, progress=progress)
 
 
 def governing_part(run: CageRun) -> RigidCageWave:
@@ -225,7 +228,11 @@ def governing_part(run: CageRun) -> RigidCageWave:
 
 
 def mesh_dataset(
-    model: FlexibleCage, run: CageRun, settings: FlexibleSettings, progress: Progress = silent
+    model: FlexibleCage,
+    run: CageRun,
+    settings: FlexibleSettings,
+    progress: Progress = silent,
+    coarse: CageRun | BaseException | None = None,
 ) -> tuple[xr.Dataset, CageRun]:
     """Run the wave of a run on a mesh that is coarser by a third; return the numbers of both, and that run.
 
@@ -238,14 +245,32 @@ def mesh_dataset(
         As the case gives it.
     settings : FlexibleSettings
     progress : Progress
+    coarse : CageRun or exception, optional
+        Run on the coarser mesh, or why it failed, where it was tried already.
+
+    Raises
+    ------
+    ConvergenceError, InputError
+        When the coarser mesh fails.
     """
-    if not run.wave.regular:
-        run = run_cage(model, run.rest, governing_part(run), settings)
-    progress("coarser mesh", 0.5, 1.0)
-    again = coarse_run(model, run, settings)
+    if isinstance(coarse, BaseException):
+        raise coarse
+    if coarse is None:
+        whole = run
+
+        def on_mesh(coarser: bool, heard: Progress) -> CageRun:
+            if coarser:
+                return coarse_run(model, whole, settings, heard)
+            if whole.wave.regular:
+                return whole
+            return run_cage(model, whole.rest, governing_part(whole), settings, progress=heard)
+
+        run, coarse = each_at_once(on_mesh, (False, True), progress)
+    if "interrupted" in (run.history.status, coarse.history.status):
+        raise KeyboardInterrupt
     progress("coarser mesh", 1.0, 1.0)
-    numbers = [largest_numbers(model, run), largest_numbers(coarse_model(model), again)]
-    return _dataset((VARIANTS[0], COARSER), numbers, run), again
+    numbers = [largest_numbers(model, run), largest_numbers(coarse_model(model), coarse)]
+    return _dataset((VARIANTS[0], COARSER), numbers, run), coarse
 
 
 def _dataset(variants: tuple[str, ...], found: list[dict[str, float]], first: CageRun | None = None) -> xr.Dataset:

@@ -12,7 +12,7 @@ from moyai.core.arrays import Array
 from moyai.core.progress import Progress, silent
 from moyai.flexible.flow import Flow
 from moyai.flexible.result import History
-from moyai.flexible.simulation import simulate
+from moyai.flexible.simulation import Enough, simulate
 from moyai.series.block_maxima import LEAST_BLOCKS, PERIODS
 from moyai.series.snaps import find_snaps
 from moyai.structures.cage.flexible.equilibrium import CageEquilibrium, collar_forces, ring_shape
@@ -28,6 +28,7 @@ from moyai.structures.cage.settling import (
     by_period,
     change_per_period,
     is_settled,
+    may_reach,
     scatters,
     still_to_come,
 )
@@ -60,7 +61,7 @@ def run_cage(
     settings: FlexibleSettings,
     *,
     step: float | None = None,
-    settle: bool = False,
+    enough: Enough | None = None,
     progress: Progress = silent,
 ) -> CageRun:
     """Run a cage from its rest in the current through waves that grow.
@@ -73,13 +74,14 @@ def run_cage(
     settings : FlexibleSettings
     step : float, optional
         Time step, at most [s].
-    settle : bool
-        Whether regular waves go on until their periods repeat, or as long as the settings allow.
+    enough : callable, optional
+        Ends regular waves, which go on as long as the settings allow; :class:`Settling`: until their periods repeat.
     progress : Progress
     """
     ramp = settings.ramp_periods * wave.period
-    settling = _Settling(rest, wave, ramp) if settle and wave.regular else None
-    if settling is not None:
+    if not wave.regular:
+        enough = None
+    if enough is not None:
         wave = replace(wave, duration=max(wave.duration, settings.most_periods * wave.period))
     flow = Flow(
         current=rest.current, waves=wave.components, stretching=settings.stretching, wave_ramp=ramp, steep=wave.steep
@@ -92,10 +94,10 @@ def run_cage(
         start=rest.state,
         step=step,
         counted_from=ramp,
-        enough=settling,
+        enough=enough,
         progress=progress,
     )
-    if settling is not None:
+    if enough is not None:
         wave = replace(wave, duration=float(history.time[-1]) - ramp)
     return CageRun(wave, rest, flow, ramp, history)
 
@@ -127,11 +129,11 @@ def go_on(rest: CageEquilibrium, before: CageRun, settings: FlexibleSettings, pr
     return CageRun(wave, rest, flow, before.ramp, history)
 
 
-class _Settling:
+class Settling:
     """Whether no number of the first page will rise any more in a run through regular waves."""
 
-    def __init__(self, rest: CageEquilibrium, wave: RigidCageWave, ramp: float) -> None:
-        built = rest.built
+    def __init__(self, rest: CageEquilibrium, wave: RigidCageWave, settings: FlexibleSettings) -> None:
+        built, ramp = rest.built, settings.ramp_periods * wave.period
         self._built, self._ramp = built, ramp
         self._period, self._least = wave.period, ramp + wave.duration
         self._strands = [rest.network.strands[part.strand].bars for part in built.lines]
@@ -170,8 +172,12 @@ class _Settling:
         scales = [abs(table[-1, 0]), max(table[-1, 1], 0.01 * size), table[-1, 2]]
         lines = table[:, 3:]
         if lines.shape[1]:
-            columns += list(lines.T)
-            scales += list(float((lines[-1] / self._broken).max()) * self._broken)
+            most = float((lines[-1] / self._broken).max()) * self._broken
+            for line, scale in zip(lines.T, most, strict=True):
+                # no length of run settles what never repeats: it counts where it may carry most
+                if not scatters(line, scale) or may_reach(line, scale):
+                    columns.append(line)
+                    scales.append(scale)
             if self._anchors.any():
                 columns.append(lines[:, self._anchors].max(axis=1))
                 scales.append(float(columns[-1][-1]))

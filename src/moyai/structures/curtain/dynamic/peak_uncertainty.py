@@ -7,8 +7,11 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
+from moyai.core.at_once import each_at_once
+from moyai.core.progress import Progress, silent
 from moyai.core.validity import Notice
 from moyai.structures.curtain.dynamic.checks import plain
+from moyai.structures.curtain.dynamic.model import Mesh
 from moyai.structures.curtain.dynamic.runs import DynamicRun, run_span
 
 #: Change of a peak with step and mesh beyond which it is reported, and the share of the highest peak that matters.
@@ -108,13 +111,14 @@ class PeakUncertainties:
         return tuple(found)
 
 
-def span_uncertainty(run: DynamicRun, **arguments: object) -> PeakUncertainties:
+def span_uncertainty(run: DynamicRun, *, progress: Progress = silent, **arguments: object) -> PeakUncertainties:
     """Run a span again with half the step, half the cells and twice the viscosity; in waves also with held normals.
 
     Parameters
     ----------
     run : DynamicRun
         The run itself.
+    progress : Progress
     **arguments
         ``water`` and the further arguments of :func:`run_span` with which it was made.
 
@@ -132,7 +136,7 @@ def span_uncertainty(run: DynamicRun, **arguments: object) -> PeakUncertainties:
     same = replace(mesh, cable_viscosity=cable, skirt_damping_time=skirt)
     names = (BOTH, *run.names)
     coarse = replace(same, along=max(4, mesh.along // 2), down=max(2, mesh.down // 2))
-    trials = {
+    trials: dict[str, tuple[str, Mesh, float | None]] = {
         "half_step": ("half the step", mesh, 0.5 * history.step),
         "half_mesh": ("half the cells", coarse, None),
         "double_viscosity": (
@@ -143,12 +147,23 @@ def span_uncertainty(run: DynamicRun, **arguments: object) -> PeakUncertainties:
     }
     if run.flow.waves is not None and mesh.turning:
         trials["held_normals"] = ("held normals", replace(same, turning=False), None)
-    peaks: dict[str, dict[str, float]] = {name: {"peak": run.peak(name)[0]} for name in names}
-    stopped = []
-    for key, (words, trial, step) in trials.items():
-        found = run_span(built.span, trial, **{**arguments, "step": step})  # type: ignore[arg-type]
+
+    def made(trial: tuple[str, Mesh, float | None], heard: Progress) -> DynamicRun:
+        words, other, step = trial
+
+        def told(_: str, done: float, total: float) -> None:
+            heard(words, done, total)
+
+        found = run_span(built.span, other, **{**arguments, "step": step, "progress": told})  # type: ignore[arg-type]
         if found.history.status == "interrupted":
             raise KeyboardInterrupt
+        return found
+
+    peaks: dict[str, dict[str, float]] = {name: {"peak": run.peak(name)[0]} for name in names}
+    stopped = []
+    for (key, (words, *_)), found in zip(
+        trials.items(), each_at_once(made, list(trials.values()), progress), strict=True
+    ):
         if found.history.status != "converged":
             stopped.append(f"the run with {words} stopped: {found.history.message}")
             continue
