@@ -3,9 +3,12 @@
     python benchmarks/bench_felt.py
     python benchmarks/bench_felt.py --only pontoon curtain/dynamic --warm --keep folder
     python benchmarks/bench_felt.py --against benchmarks.json
+    python -m moyai.core.shipped_kernels kernels examples/pontoon.yaml
+    python benchmarks/bench_felt.py --kernels kernels
 
 Every command runs in a process of its own, its children counted (user and system time). The first run has a fresh
-folder for compiled kernels, the warm one is the second or a later run with that folder. Seconds are shown, and their
+folder for compiled kernels, the warm one is the second or a later run with that folder; "wheel" is the first run of a
+wheel that brings its kernels. Seconds are shown, and their
 ratio to a yardstick timed around each command (a fixed sum in plain Python, about a second), which takes out how busy
 the machine is. ``--json`` writes the rows; ``--against`` prints them next to those of such a file.
 """
@@ -51,9 +54,11 @@ def yardstick() -> float:
     return time.process_time() - begin
 
 
-def timed(command: list[str], cache: Path) -> tuple[float, float, float, int]:
+def timed(command: list[str], cache: Path, kernels: Path | None = None) -> tuple[float, float, float, int]:
     """Return processor time with children [s], elapsed time [s], largest memory [MB] and exit code of a command."""
     environment = {"OMP_NUM_THREADS": "1", **os.environ, "NUMBA_CACHE_DIR": str(cache), "MPLBACKEND": "Agg"}
+    if kernels is not None:
+        environment["MOYAI_COMPILED_KERNELS"] = str(kernels)
     begin = time.perf_counter()
     process = subprocess.Popen(command, env=environment, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
     _, status, usage = os.wait4(process.pid, 0)
@@ -62,10 +67,10 @@ def timed(command: list[str], cache: Path) -> tuple[float, float, float, int]:
     return usage.ru_utime + usage.ru_stime, elapsed, usage.ru_maxrss * 1024 / MEGABYTE, process.returncode
 
 
-def measured(name: str, command: list[str], cache: Path, state: str) -> dict[str, Any]:
+def measured(name: str, command: list[str], cache: Path, state: str, kernels: Path | None = None) -> dict[str, Any]:
     """Run a command between two yardsticks and return its row."""
     before = yardstick()
-    seconds, elapsed, memory, code = timed(command, cache)
+    seconds, elapsed, memory, code = timed(command, cache, kernels)
     unit = 0.5 * (before + yardstick())
     return {
         "command": name,
@@ -79,7 +84,7 @@ def measured(name: str, command: list[str], cache: Path, state: str) -> dict[str
     }
 
 
-def rows(names: list[str], states: list[str], keep: Path, cache: Path | None) -> Any:
+def rows(names: list[str], states: list[str], keep: Path, cache: Path | None, kernels: Path | None) -> Any:
     """Give a row for every command and state."""
     for name in names:
         file, folder = CASES[name], keep / name.replace("/", "_")
@@ -90,6 +95,9 @@ def rows(names: list[str], states: list[str], keep: Path, cache: Path | None) ->
                 row = measured(name, run, place, state)
                 page = folder / "report.html"
                 yield {**row, "page": round(page.stat().st_size / MEGABYTE, 1) if page.is_file() else None}
+            if kernels is not None:
+                with tempfile.TemporaryDirectory() as empty:
+                    yield measured(name, run, Path(empty), "wheel", kernels)
             if states == ["first", "warm"] and name == "pontoon":
                 yield measured("check pontoon", [*MOYAI, "check", str(file)], place, "warm")
                 yield measured("--help", [*MOYAI, "--help"], place, "warm")
@@ -102,6 +110,9 @@ def main() -> None:
     parser.add_argument("--warm", action="store_true", help="warm runs alone, with the cache of the environment")
     parser.add_argument("--keep", type=Path, help="folder of the results")
     parser.add_argument("--cache", type=Path, help="folder of compiled kernels, used for warm runs alone")
+    parser.add_argument(
+        "--kernels", type=Path, help="folder of moyai.core.shipped_kernels: first runs of a wheel that brings it too"
+    )
     parser.add_argument("--json", type=Path, help="file to write the rows to")
     parser.add_argument("--against", type=Path, help="rows of an earlier run on this machine")
     given = parser.parse_args()
@@ -114,7 +125,7 @@ def main() -> None:
     with tempfile.TemporaryDirectory() as folder:
         states = ["warm"] if given.warm else ["first", "warm"]
         cache = given.cache if given.warm else None
-        for row in rows(given.only, states, given.keep or Path(folder), cache):
+        for row in rows(given.only, states, given.keep or Path(folder), cache, given.kernels):
             found.append(row)
             page = "" if row.get("page") is None else f"{row['page']:.1f}"
             line = (

@@ -17,7 +17,7 @@ from sphinx.application import Sphinx
 from sphinx.util.docutils import SphinxDirective
 
 RECORDS = Path(__file__).resolve().parent / "validation" / "speed.json"
-COLOURS = {"first": "#9db8d2", "warm": "#1b6ca8"}
+COLOURS = {"first": "#9db8d2", "wheel": "#5f93bd", "warm": "#1b6ca8"}
 _ROW, _LEFT, _WIDTH = 17, 130, 520
 
 

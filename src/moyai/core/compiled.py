@@ -27,6 +27,7 @@ from numba.core.compiler import Flags, compile_extra
 from numba.core.registry import CPUDispatcher
 
 from moyai.core.compile_costs import cut_costs
+from moyai.core.shipped_kernels import shipped
 
 _PACKAGE = Path(__file__).parents[1]
 _IMPORT = re.compile(r"^from (moyai[\w.]*) import (\([^)]*\)|[^\n]*)", re.MULTILINE)
@@ -95,6 +96,19 @@ class _Cache(FunctionCache):  # type: ignore[misc]
     def __init__(self, function: Callable[..., Any]) -> None:
         super().__init__(function)
         self._cache_file.__class__ = _Files
+
+    def _load_overload(self, sig: Any, target_context: Any) -> Any:
+        """Return a kernel of the cache, or the one that came with the package; see numba's method."""
+        found = super()._load_overload(sig, target_context)
+        if found is None and self._enabled:
+            data = shipped(
+                Path(self._py_func.__code__.co_filename), self._index_key(sig, target_context.codegen()), self._files_in
+            )
+            found = None if data is None else self._impl.rebuild(target_context, data)
+        return found
+
+    def _files_in(self, folder: Path) -> _Files:
+        return _Files(str(folder), self._impl.filename_base, self._cache_file._source_stamp)
 
 
 class _Part(JITCodeLibrary):  # type: ignore[misc]
