@@ -12,7 +12,7 @@ from typing import Any
 from moyai.core.compiled import njit
 from moyai.flexible.explicit_forces import bending_forces, rib_forces, spine_forces
 from moyai.flexible.explicit_loads import loads
-from moyai.flexible.explicit_parts import add_ring_forces, add_sheet_forces, screens
+from moyai.flexible.explicit_parts import add_ring_forces, add_sheet_forces, room_for_speeds, screens
 from moyai.flexible.explicit_rows import FREE_X, FX, QX, ROW, STIFF, TX, X, Y, Z
 from moyai.flexible.ground_kernel import FLAT, ground
 
@@ -42,11 +42,12 @@ def relax(
     """
     count, nodes = sizes[0], mass.size
     panels, rings, sheets, _ = parts
+    speeds = room_for_speeds(panels)
     energy, left, worst = 0.0, math.inf, 0
     for it in range(steps):
         if it % every == 0:
             loads(A, sizes, runs, attached, fluid[0], fluid[1], surface, False, 0.0, sheets)
-            screens(A, count, panels, 0.5 * fluid[0], 0.0, 0.0)
+            screens(A, count, panels, 0.5 * fluid[0], 0.0, 0.0, True, speeds, 0.0)
             add_screen_loads(A, panels)
         for axis in range(3):
             for i in range(count):

@@ -27,6 +27,7 @@ from moyai.flexible.explicit_parts import (
     kick_sections,
     pressure_work,
     ring_energy,
+    room_for_speeds,
     screen_forces,
     screen_work,
     screens,
@@ -59,6 +60,9 @@ from moyai.flexible.explicit_rows import (
 )
 from moyai.flexible.explicit_types import Blocks, Driving, Parts, Saved, Timing, Watch, Waves
 from moyai.flexible.ground_kernel import FLAT, ground
+
+#: Steps for which the loads of net panels are held, at most, and no longer than the time in which they damp a node.
+PANEL_STEPS = 4
 
 
 @njit(cache=True, error_model="numpy")
@@ -309,6 +313,7 @@ def march(
     moved, drawn, keep = np.zeros((booked.shape[0], 3)), np.zeros((booked.shape[0], 3)), np.empty((3, count))
     total = per_row * per_load
     rate = rate_of_drag(A, spine, runs, attached, sheets)
+    speeds, panels_last, panels_next, held = room_for_speeds(panels), -1, 0, 1
     for row in range(rows):
         done = 0
         while done < total:
@@ -324,7 +329,14 @@ def march(
             water_at(A, waves, start + index * step)
             turning = kinetic_energy_now(A, count, blocks)
             loads(A, sizes, runs, attached, fluid[0], fluid[1], surface, moving, size * step, sheets)
-            screens(A, count, panels, 0.5 * fluid[0], size * step, step)
+            # loads of panels are found for several steps, at the speed to which the last two times lead in their
+            # middle; velocities stand half a step behind
+            due, held = index >= panels_next, max(size, held)
+            onward = 0.5 * (held + 1) / (index - panels_last) if panels_last >= 0 else 0.0
+            damped = screens(A, count, panels, 0.5 * fluid[0], held * step, step, due, speeds, onward)
+            if due:
+                panels_last, panels_next = index, index + held
+                held = min(PANEL_STEPS, max(1, int(1.0 / (damped * step + 1e-9))))
             rate = rate_of_drag(A, spine, runs, attached, sheets)
             if rate * step * size > 1.5 * most:
                 size = max(1, int(most / (rate * step)))

@@ -99,19 +99,30 @@ def section_energy(A: Array, blocks: Blocks) -> float:
 
 
 @njit(cache=True, error_model="numpy")
-def screens(A: Array, count: int, panels: Panels, half_density: float, ahead: float, step: float) -> None:
+def screens(
+    A: Array, count: int, panels: Panels, half_density: float, ahead: float, step: float, due: bool, speeds: Array,
+    onward: float,
+) -> float:  # fmt: skip
     """Write the loads of net panels as R - C velocity and inverse mass blocks that hold half a step of C.
 
     The step then takes the damping at the mean of its velocities, so that light nets in fast water require no shorter
-    step [eq:cage-panel-implicit].
+    step [eq:cage-panel-implicit]. R and C are found where they are ``due``, for an interval ``ahead``; ``speeds`` and
+    ``onward`` as in :func:`moyai.flexible.panel_kernel.screen_loads`. Returns the fastest rate at which panels damp a
+    node then [1/s].
     """
+    rate = 0.0
     if panels is None:
-        return
+        return rate
     system, screen = panels
-    x, y, z, u, v, w = A[X : X + count], A[Y : Y + count], A[Z : Z + count], A[U : U + count], A[V : V + count], A[W:]
-    screen_loads(
-        x, y, z, u, v, w, A[WU:], A[WV:], A[WW:], A[WA:], A[WB:], A[WC:], A[ETA:], system, half_density, ahead, screen
-    )
+    if due:
+        x, y, z, u, v, w = A[X : X + count], A[Y : Y + count], A[Z:], A[U : U + count], A[V : V + count], A[W:]
+        screen_loads(
+            x, y, z, u, v, w, A[WU:], A[WV:], A[WW:], A[WA:], A[WB:], A[WC:], A[ETA:], system, half_density, ahead,
+            screen, speeds, onward,
+        )  # fmt: skip
+        for i in range(screen.shape[1]):
+            mass = A[MXX + i] + A[MYY + i] + A[MZZ + i]
+            rate = max(rate, (screen[0, i] + screen[3, i] + screen[5, i]) / mass)
     half = 0.5 * step
     for row in range(6):
         for i in range(screen.shape[1]):
@@ -120,6 +131,15 @@ def screens(A: Array, count: int, panels: Panels, half_density: float, ahead: fl
     for row in range(6):
         for i in range(screen.shape[1]):
             A[MXX + row * ROW + i] -= half * screen[row, i]
+    return rate
+
+
+@njit(cache=True, error_model="numpy")
+def room_for_speeds(panels: Panels) -> Any:
+    """Return room for the relative speeds of all panels."""
+    if panels is None:
+        return np.zeros(0)
+    return np.zeros(panels[0][0].shape[0])
 
 
 @njit(cache=True, error_model="numpy", fastmath=FAST)

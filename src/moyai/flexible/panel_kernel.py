@@ -40,10 +40,10 @@ def _coefficients(table: Any, grid: Any, law: int, cosine: float, speed: float) 
 @njit(cache=True, error_model="numpy")
 def _matrix(
     x0: float, x1: float, x2: float, y0: float, y1: float, y2: float, low: float, high: float,
-    w0: float, w1: float, w2: float, area: float, table: Any, grid: Any, law: int, half_density: float,
+    w0: float, w1: float, w2: float, area: float, table: Any, grid: Any, law: int, half_density: float, faster: float,
 ) -> tuple[float, float, float, float, float, float]:  # fmt: skip
     """Return S of one panel (xx, xy, xz, yy, yz, zz) from its diagonals x and y, its span of heights over the surface
-    and the relative velocity w.
+    and the relative velocity w, which counts ``faster`` times.
 
     Of a triangle the diagonals are two of its edges.
     """
@@ -55,6 +55,7 @@ def _matrix(
     n0, n1, n2 = n0 / twice, n1 / twice, n2 / twice
     wet = 1.0 if high <= 0.0 else -low / (high - low)
     cosine = min(abs(n0 * w0 + n1 * w1 + n2 * w2) / speed, 1.0)
+    speed *= faster
     a, b = _coefficients(table, grid, law, cosine, speed)
     scale = half_density * (area if area > 0.0 else 0.5 * twice) * wet * speed
     a, b = scale * a, scale * b
@@ -64,15 +65,18 @@ def _matrix(
 @njit(cache=True, error_model="numpy")
 def screen_loads(
     x: Any, y: Any, z: Any, u: Any, v: Any, w: Any, wu: Any, wv: Any, ww: Any, wa: Any, wb: Any, wc: Any, eta: Any,
-    panels: Any, half_density: float, ahead: float, out: Any,
+    panels: Any, half_density: float, ahead: float, out: Any, speeds: Any, onward: float,
 ) -> None:  # fmt: skip
     """Write what panels do to their nodes as force = R - C velocity, rows 0-5 (C) and 6-8 (R) of ``out`` (12, n).
 
     Held over an interval ``ahead``: the velocity of the water is taken in its middle, along its acceleration
-    [eq:cage-panel-implicit].
+    [eq:cage-panel-implicit]. ``speeds`` are the relative speeds of all panels when they were last asked for, of which
+    the change since counts ``onward`` times; those of now take their place. Not above 0: nothing is known of them.
     """
     corners, rows, table, grid = panels
     half = 0.5 * ahead
+    # where the change of the relative speed is known the water need not be led on
+    lead = 0.0 if onward > 0.0 else half
     # by node: what a corner takes then lies in one place
     sums = np.zeros((out.shape[1], 9))
     for p in range(corners.shape[0]):
@@ -84,16 +88,21 @@ def screen_loads(
         low, high = 1e300, -1e300
         for k in range(count):
             i = corners[p, k]
-            w0 += factor * (wu[i] + half * wa[i]) - u[i]
-            w1 += factor * (wv[i] + half * wb[i]) - v[i]
-            w2 += factor * (ww[i] + half * wc[i]) - w[i]
+            w0 += factor * (wu[i] + lead * wa[i]) - u[i]
+            w1 += factor * (wv[i] + lead * wb[i]) - v[i]
+            w2 += factor * (ww[i] + lead * wc[i]) - w[i]
             over = z[i] - eta[i]
             low, high = min(low, over), max(high, over)
         e, f = (c, a) if count == 4 else (b, a)
         g, h = (d, b) if count == 4 else (c, a)
+        w0, w1, w2 = share * w0 - s0, share * w1 - s1, share * w2 - s2
+        speed, faster = math.sqrt(w0 * w0 + w1 * w1 + w2 * w2), 1.0
+        if onward > 0.0 and speed > 0.0:
+            faster = min(max(1.0 + onward * (speed - speeds[p]) / speed, 0.95), 1.05)
+        speeds[p] = speed
         xx, xy, xz, yy, yz, zz = _matrix(
             x[e] - x[f], y[e] - y[f], z[e] - z[f], x[g] - x[h], y[g] - y[h], z[g] - z[h], low, high,
-            share * w0 - s0, share * w1 - s1, share * w2 - s2, rows[p, 0], table, grid, int(rows[p, 5]), half_density,
+            w0, w1, w2, rows[p, 0], table, grid, int(rows[p, 5]), half_density, faster,
         )  # fmt: skip
         if xx + yy + zz <= 0.0:
             continue
@@ -139,7 +148,7 @@ def _on_one(p: int, xl: Any, vl: Any, water: Any, panels: Any, half_density: flo
         xl[e, 0] - xl[f, 0], xl[e, 1] - xl[f, 1], xl[e, 2] - xl[f, 2],
         xl[g, 0] - xl[h, 0], xl[g, 1] - xl[h, 1], xl[g, 2] - xl[h, 2], low, high,
         share * w0 - rows[p, 2], share * w1 - rows[p, 3], share * w2 - rows[p, 4], rows[p, 0], table, grid,
-        int(rows[p, 5]), half_density,
+        int(rows[p, 5]), half_density, 1.0,
     )  # fmt: skip
     for k in range(count):
         i = corners[p, k]

@@ -13,6 +13,7 @@ from moyai.flexible.dynamic_relaxation import relax_network
 from moyai.flexible.elements import BarType
 from moyai.flexible.explicit import ExplicitRun
 from moyai.flexible.explicit_parts import screens
+from moyai.flexible.explicit_rows import WU
 from moyai.flexible.flow import Flow
 from moyai.flexible.network import Network
 from moyai.flexible.panel_kernel import panel_tangent
@@ -128,6 +129,33 @@ def curtain(rows: int, law: PanelLaw, top: str = "fixed") -> Network:
     return replace(network, panels=NetPanels(corners, (law,), area=1.0), nodes=replace(network.nodes, mass=mass))
 
 
+def found_for(run: ExplicitRun, onward: float, speeds: np.ndarray | None = None) -> float:
+    """Find the loads of the panels of a run in still time, led on by the change of the relative speeds."""
+    room = np.zeros(len(run.parts[0][0][0])) if speeds is None else speeds
+    size = int(run.packed.sizes[0])
+    return screens(run.packed.memory, size, run.parts[0], 0.5 * WATER.density, 0.0, 1e-3, True, room, onward)
+
+
+def test_the_speed_of_panels_is_led_on() -> None:
+    """Of a law without the Reynolds number C goes with the speed: to where its change leads, a twentieth at most."""
+    network = curtain(5, table_of("loland", Net.from_solidity(0.002, 0.25)))
+    still = State.at_rest(network)
+    run = ExplicitRun(network, {}, Flow(velocity=(0.7, -0.2, 0.1)), still, safety=None, load_steps=1)
+    speeds, matrices = np.zeros(16), []
+    rates = [found_for(run, 0.0, speeds)]
+    matrices.append(run.parts[0][1][:6].copy())
+    water = run.packed.node_rows(WU, 3)
+    for factor, onward in ((1.02, 0.0), (1.02 * 1.01, 2.0), (1.3, 2.0)):
+        water[:] = factor * run.water[:3]
+        rates.append(found_for(run, onward, speeds))
+        matrices.append(run.parts[0][1][:6].copy())
+    wanted = [1.0, 1.02, 1.02 * 1.01 + 2.0 * 1.02 * 0.01, 1.3 * 1.05]
+    for value, matrix, rate in zip(wanted, matrices, rates, strict=True):
+        assert matrix == pytest.approx(value * matrices[0], rel=1e-12, abs=1e-12)
+        assert rate == pytest.approx(value * rates[0], rel=1e-12)
+    assert rates[0] > 0.0
+
+
 def test_the_explicit_scheme_sees_the_same_forces() -> None:
     rng = np.random.default_rng(2)
     network = curtain(5, table_of("kristiansen_faltinsen", Net.from_solidity(0.002, 0.25)))
@@ -135,7 +163,7 @@ def test_the_explicit_scheme_sees_the_same_forces() -> None:
     speed = 0.4 * rng.normal(size=(25, 3))
     flow = Flow(velocity=(0.7, -0.2, 0.1))
     run = ExplicitRun(network, {}, flow, State(0.0, place, speed), safety=None, load_steps=1)
-    screens(run.packed.memory, int(run.packed.sizes[0]), run.parts[0], 0.5 * WATER.density, 0.0, 1e-3)
+    found_for(run, 0.0)
     screen = run.parts[0][1]
     v = run.speed
     c = screen[[0, 1, 2, 1, 3, 4, 2, 4, 5]].reshape(3, 3, -1)
