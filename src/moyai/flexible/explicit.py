@@ -33,9 +33,9 @@ SAFETY = 0.95
 #: The same where bars go slack with a damping ratio on the mesh below ``LEAST_DAMPING``: a spring that only pulls gives
 #: back more than it took when (w dt)^2 > 2, half of the bound of a spring that also pushes [eq:flexible-one-sided].
 SAFETY_UNDAMPED, LEAST_DAMPING = 0.5, 0.05
-#: Steps between two evaluations of the loads, at most; where the water that goes along outweighs what carries it, by
-#: more than ``MOST_ADDED`` at a node, and with sheets and sections of added mass, whose frames turn at these moments
-#: (light parts that move along themselves gain or lose energy by frames that lag by more).
+#: Steps between two evaluations of the loads, at most; where the water that goes along with bars outweighs what carries
+#: it, by more than ``MOST_ADDED`` at a node, and with sheets and sections of added mass, whose frames turn at these
+#: moments (light parts that move along themselves gain or lose energy by frames that lag by more).
 LOAD_STEPS, LOAD_STEPS_OF_LIGHT, MOST_ADDED = 12, 1, 2.0
 #: Bound of the load interval times the fastest rate of drag; the same for the step, from which a row is broken off.
 DRAG_SHARE, DRAG_BROKEN = 0.3, 0.4
@@ -125,11 +125,11 @@ class ExplicitRun:
             self.load_steps = min(load_steps, LOAD_STEPS_OF_LIGHT)
 
     def _most_added(self) -> float:
-        """Return the largest added mass of bars and attachments at a free node, over its own mass."""
+        """Return the largest added mass of bars at a free node, over its own mass; that of attachments has no frame."""
         arrays, free = self.arrays, self.network.nodes.kind == 0
         if not free.any():
             return 0.0
-        added = arrays.node("added_mass").copy()
+        added = np.zeros(free.size)
         for end in (arrays.start, arrays.end):
             np.add.at(added, end, arrays.bar("added_normal"))
         return float(np.max(added[free] / np.maximum(arrays.node("mass")[free], 1e-300)))
