@@ -14,7 +14,7 @@ from __future__ import annotations
 import hashlib
 import re
 from collections.abc import Callable, Iterator, Sequence
-from contextlib import contextmanager
+from contextlib import contextmanager, suppress
 from functools import cache, partial
 from pathlib import Path
 from typing import Any, ClassVar
@@ -104,7 +104,8 @@ class _Cache(FunctionCache):  # type: ignore[misc]
             data = shipped(
                 Path(self._py_func.__code__.co_filename), self._index_key(sig, target_context.codegen()), self._files_in
             )
-            found = None if data is None else self._impl.rebuild(target_context, data)
+            with suppress(Exception):
+                found = None if data is None else self._impl.rebuild(target_context, data)
         return found
 
     def _files_in(self, folder: Path) -> _Files:

@@ -3,19 +3,23 @@
 A wheel may hold the folder ``moyai/compiled_kernels``, for a family of processors: the kernels of the templates, and
 those that runs of further cases compile. ``python -m moyai.core.shipped_kernels FOLDER CASE...`` writes it; without a
 wheel, on a cluster for instance, ``MOYAI_COMPILED_KERNELS`` names it. It is used where the processor has their
-instructions and version of numba, bytecode and content of the files are those of the build; else kernels are compiled
-at first use, as without it. Numbers of both agree to rounding: other processors add in another order.
+instructions and system, version of numba, bytecode and content of the files are those of the build; else, and where a
+file is damaged, kernels are compiled at first use, as without it. Numbers of both agree to rounding: other processors
+add in another order.
 """
 
 from __future__ import annotations
 
+import hashlib
 import os
 import platform
+import re
 import shutil
 import subprocess
 import sys
 import tempfile
 from collections.abc import Callable, Sequence
+from contextlib import suppress
 from functools import cache
 from pathlib import Path
 from typing import Any
@@ -26,8 +30,10 @@ FOLDER = Path(os.environ.get("MOYAI_COMPILED_KERNELS") or PACKAGE / "compiled_ke
 #: By kind of machine: name of the processor for the compiler, and instructions that a machine needs to have.
 _FAMILIES = {
     "x86_64": ("x86-64-v3", ("avx", "avx2", "bmi", "bmi2", "f16c", "fma", "lzcnt", "movbe", "popcnt", "sse4.2")),
-    "arm64": ("generic", ("neon",)),
+    "arm64": ("generic", ()),
 }
+#: Digests of the files of the folder.
+_DIGESTS = "sha256.txt"
 _SAME_MACHINE = {"amd64": "x86_64", "aarch64": "arm64"}
 
 
@@ -41,13 +47,31 @@ def family() -> tuple[str, str] | None:
 @cache
 def usable_family() -> tuple[str, str] | None:
     """Return the family of :func:`family` where there are shipped kernels and this processor has its instructions."""
-    found = family() if FOLDER.is_dir() else None
-    if found is None:
-        return None
+    found = family() if os.path.isdir(FOLDER) else None
+    if not found or not found[1]:
+        return found
     from llvmlite.binding import get_host_cpu_features
 
     own = get_host_cpu_features()
     return found if all(own.get(name.lstrip("+"), False) for name in found[1].split(",")) else None
+
+
+@cache
+def _digests() -> dict[str, str]:
+    """Return the digests of the files of the folder by their places in it."""
+    lines = (FOLDER / _DIGESTS).read_text(encoding="utf-8").splitlines()
+    return {place: digest for digest, place in (line.split(maxsplit=1) for line in lines)}
+
+
+def _is_whole(file: Path) -> bool:
+    # machine code that is damaged would end the process
+    own = hashlib.sha256(file.read_bytes()).hexdigest()
+    return _digests().get(file.relative_to(FOLDER).as_posix()) == own
+
+
+def _system(triple: str) -> str:
+    """Return machine and system of a target, without the version of the system."""
+    return re.sub(r"[\d.]+$", "", triple)
 
 
 def shipped(source: Path, key: tuple[Any, Any, Any], open_files: Callable[[Path], Any]) -> Any:
@@ -65,13 +89,14 @@ def shipped(source: Path, key: tuple[Any, Any, Any], open_files: Callable[[Path]
     wanted = usable_family()
     if wanted is None or not source.is_relative_to(PACKAGE):
         return None
-    files = open_files(FOLDER / source.parent.relative_to(PACKAGE))
-    for (types, (_system, *target), digests), name in files._load_index().items():
-        if (types, tuple(target), digests) == (key[0], wanted, key[2]):
-            try:
+    place = FOLDER / source.parent.relative_to(PACKAGE)
+    target = (_system(key[1][0]), *wanted)
+    # whatever is wrong with the folder, kernels can be compiled
+    with suppress(Exception):
+        files = open_files(place)
+        for (types, (triple, *own), digests), name in files._load_index().items():
+            if (types, (_system(triple), *own), digests) == (key[0], target, key[2]) and _is_whole(place / name):
                 return files._load_data(name)
-            except OSError:
-                return None
     return None
 
 
@@ -94,9 +119,11 @@ def write_kernels(folder: Path, cases: Sequence[Path] = ()) -> int:
     wanted = family()
     if wanted is None:
         raise SystemExit(f"no kernels are shipped for {platform.machine()}")
-    count = 0
+    lines: list[str] = []
     with tempfile.TemporaryDirectory() as kept:
         target = {"NUMBA_CPU_NAME": wanted[0], "NUMBA_CPU_FEATURES": wanted[1], "NUMBA_CACHE_DIR": kept}
+        # a library of the builder that users need not have
+        target["NUMBA_DISABLE_INTEL_SVML"] = "1"
         moyai, environment = [sys.executable, "-m", "moyai"], os.environ | target
         subprocess.run([*moyai, "compile", "--quiet"], env=environment, check=True)
         for number, case in enumerate(cases):
@@ -108,8 +135,10 @@ def write_kernels(folder: Path, cases: Sequence[Path] = ()) -> int:
                 place = folder / source.relative_to(PACKAGE) / file.name
                 place.parent.mkdir(parents=True, exist_ok=True)
                 shutil.copyfile(file, place)
-                count += 1
-    return count
+                digest = hashlib.sha256(file.read_bytes()).hexdigest()
+                lines.append(f"{digest}  {place.relative_to(folder).as_posix()}\n")
+    (folder / _DIGESTS).write_text("".join(lines), encoding="utf-8")
+    return len(lines)
 
 
 if __name__ == "__main__":

@@ -61,7 +61,8 @@ from moyai.flexible.explicit_rows import (
 from moyai.flexible.explicit_types import Blocks, Driving, Parts, Saved, Timing, Watch, Waves
 from moyai.flexible.ground_kernel import FLAT, ground
 
-#: Steps for which the loads of net panels are held, at most, and no longer than the time in which they damp a node.
+#: Steps for which the loads of net panels are held where those of the bars are taken more often, at most, and no longer
+#: than the time in which they damp any node.
 PANEL_STEPS = 4
 
 
@@ -313,7 +314,7 @@ def march(
     moved, drawn, keep = np.zeros((booked.shape[0], 3)), np.zeros((booked.shape[0], 3)), np.empty((3, count))
     total = per_row * per_load
     rate = rate_of_drag(A, spine, runs, attached, sheets)
-    speeds, panels_last, panels_next, held = room_for_speeds(panels), -1, 0, 1
+    speeds, panels_last, panels_next, held, damped = room_for_speeds(panels), -1, 0, 1, 0.0
     for row in range(rows):
         done = 0
         while done < total:
@@ -329,13 +330,14 @@ def march(
             water_at(A, waves, start + index * step)
             turning = kinetic_energy_now(A, count, blocks)
             loads(A, sizes, runs, attached, fluid[0], fluid[1], surface, moving, size * step, sheets)
-            # loads of panels are found for several steps, at the speed to which the last two times lead in their
-            # middle; velocities stand half a step behind
-            due, held = index >= panels_next, max(size, held)
-            onward = 0.5 * (held + 1) / (index - panels_last) if panels_last >= 0 else 0.0
-            damped = screens(A, count, panels, 0.5 * fluid[0], held * step, step, due, speeds, onward)
+            # loads of panels are found for several steps, where they damp nodes slowly at the speed to which the last
+            # two times lead in their middle; velocities stand half a step behind
+            due, held = index >= panels_next, max(size, held - held % size)
+            calm = panels_last >= 0 and damped * step * held <= 1.0
+            onward = 0.5 * (held + 1) / (index - panels_last) if calm else 0.0
+            found = screens(A, count, panels, 0.5 * fluid[0], held * step, step, due, speeds, onward)
             if due:
-                panels_last, panels_next = index, index + held
+                panels_last, panels_next, damped = index, index + held, found
                 held = min(PANEL_STEPS, max(1, int(1.0 / (damped * step + 1e-9))))
             rate = rate_of_drag(A, spine, runs, attached, sheets)
             if rate * step * size > 1.5 * most:

@@ -207,8 +207,11 @@ def peak_sensitivity(
         )
     last = any(strand.bars[-1] == bar and strand.bars.size > 1 for strand in network.strands)
 
-    def peak(which: str, mesh: Network, begin: State | None, number: int, **more: Any) -> tuple[float, float]:
-        chosen_options = {**options, **more, "keep_nodes": [0], "keep_bars": [number]}
+    def peak(number: int, which: str, mesh: Network, begin: State | None, own: int, **more: Any) -> tuple[float, float]:
+        def heard(what: str, done: float, total: float) -> None:
+            progress("sensitivity", number + done / total, 5)
+
+        chosen_options = {**options, **more, "keep_nodes": [0], "keep_bars": [own], "progress": heard}
         history = simulate(mesh, motions, start=begin, **chosen_options)
         if mesh is not network and any(notice.code == "step-not-stable" for notice in history.notices):
             # a step given by hand need not suit a finer mesh or more viscosity
@@ -218,19 +221,15 @@ def peak_sensitivity(
         if history.status != "converged":
             raise ConvergenceError(f"run with {which}: {history.message}", parameter="sensitivity")
         chosen = history.time >= history.time[0] + after
+        progress("sensitivity", number + 1, 5)
         return float(np.max(history.tension_peak[chosen, 0])), history.step
 
-    first, step = peak("the given step and mesh", network, start, bar)
-    progress("sensitivity", 1, 5)
-    half, _ = peak("half the step", network, start, bar, step=0.5 * step)
-    progress("sensitivity", 2, 5)
+    first, step = peak(0, "the given step and mesh", network, start, bar)
+    half, _ = peak(1, "half the step", network, start, bar, step=0.5 * step)
     finer, state = refined_start(network, 2, start, equilibrium_flow)
     # a step given by hand is the longest that is stable on the given mesh
     shorter = {} if options.get("step") is None else {"step": 0.5 * options["step"]}
-    mesh, _ = peak("half the mesh", finer, state, 2 * bar + (1 if last else 0), **shorter)
-    progress("sensitivity", 3, 5)
-    less, _ = peak("half the viscosity", with_viscosity(network, 0.5), start, bar)
-    progress("sensitivity", 4, 5)
-    more, _ = peak("twice the viscosity", more_viscous(network), start, bar)
-    progress("sensitivity", 5, 5)
+    mesh, _ = peak(2, "half the mesh", finer, state, 2 * bar + (1 if last else 0), **shorter)
+    less, _ = peak(3, "half the viscosity", with_viscosity(network, 0.5), start, bar)
+    more, _ = peak(4, "twice the viscosity", more_viscous(network), start, bar)
     return PeakSensitivity(first, half, mesh, less, more, step)

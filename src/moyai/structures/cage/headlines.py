@@ -152,10 +152,12 @@ def _law_runs(groups: Groups) -> AllRuns:
 
 
 def _runs(state: LevelState, groups: Groups, laws: AllRuns) -> Iterator[Run]:
-    """Yield water level, words and series of every run through time."""
+    """Yield water level, words and series of every run through time that came beyond its growing waves."""
     for path, run in groups.items():
         parts = path.strip("/").split("/")
         if len(parts) == 4 and parts[1] == "time" and parts[0] == state.level:
+            if not float(run["time"].values[-1]) >= float(run.attrs["ramp"]):
+                continue
             place = "/".join((parts[0], *parts[2:]))
             words = f"{sea_words(parts[2], run, state.speed)}, {state.level}"
             yield replace(state, law_runs=laws, wave=place), words, run

@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
+from functools import partial
 from typing import Any
 
 import numpy as np
@@ -130,6 +131,10 @@ def _as_history(network: Network, found: CoupledHistory) -> History:
     )  # fmt: skip
 
 
+def _told(progress: Progress, before: int, what: str, done: float, total: float) -> None:
+    progress("sensitivity", before + done / total, 5)
+
+
 def coupled_sensitivity(
     problem: NetworkProblem,
     network: Network,
@@ -168,11 +173,11 @@ def coupled_sensitivity(
     )
     cases = cases if checked is None else cases[2:]
     peaks = []
-    for number, (which, mesh, begin, chosen, changed) in enumerate(cases):
-        progress("sensitivity", number + 1, 5)
+    for number, (which, mesh, begin, chosen, changed) in enumerate(cases, 5 - len(cases)):
         found = simulate_coupled(
-            mesh, bodies, start=begin, keep_nodes=[0], keep_bars=[chosen], **{**options, **changed}
-        )
+            mesh, bodies, start=begin, keep_nodes=[0], keep_bars=[chosen], progress=partial(_told, progress, number),
+            **{**options, **changed},
+        )  # fmt: skip
         if found.status == "interrupted":
             raise KeyboardInterrupt
         if found.status != "converged":
