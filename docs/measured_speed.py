@@ -79,7 +79,8 @@ class MeasuredSpeed(SphinxDirective):
 
         rows = records()
         self.env.note_dependency(str(RECORDS))
-        drawn = figure(bars(rows), "Processor time of each command over that of the yardstick, first run and warm.")
+        caption = "Processor time of each command over that of the yardstick: first, first of a wheel, warm."
+        drawn = figure(bars(rows), caption)
         return [nodes.raw("", drawn + table(rows), format="html")]
 
 
