@@ -12,7 +12,7 @@ from moyai.structures.cage.flexible.problem import FlexibleSettings
 from moyai.structures.cage.flexible.time import Settling, run_cage
 from moyai.structures.cage.headlines import _anchor, _volume
 from moyai.structures.cage.rigid.waves import wave_of
-from moyai.structures.cage.settling import by_period, is_settled, limit_of, scatters, still_to_come
+from moyai.structures.cage.settling import by_period, is_settled, limit_of, may_reach, scatters, still_to_come
 
 PERIOD = 5.0
 
@@ -91,6 +91,22 @@ def test_waves_that_never_repeat_are_a_chance_of_the_record():
     assert scatters(by_period(run["time"].values, series, PERIOD, 0.0), 60e3)
     low, high, words = reach(run, float(series.max()), series)
     assert low < high >= series.max() and "does not repeat" in words and not words.startswith(UNSETTLED)
+
+
+def test_an_idle_line_that_never_repeats_does_not_keep_a_run_going():
+    """Lines of one strength: what scatters counts where it may come up to the most loaded line."""
+    periods = np.arange(12)
+    chaos = np.random.default_rng(3).uniform(-1.0, 1.0, periods.size)
+    for idle, ends in ((0.3, True), (0.9, False)):
+        assert scatters(idle + 0.1 * chaos, 1.0) and may_reach(idle + 0.1 * chaos, 1.0) is not ends
+        model, rest = at_sea(0.3)
+        settled = Settling(rest, wave_of("linear", 2.0, 5.0, 0.0, model.water, 0.3, 2), FlexibleSettings(("time",)))
+        broken = settled._broken
+        lines = np.ones((periods.size, broken.size)) * broken
+        idle_one = int(np.flatnonzero(~settled._anchors)[0])
+        lines[:, idle_one] = (idle + 0.1 * chaos) * broken[idle_one]
+        settled._highest = list(np.column_stack([-np.ones(12), np.ones(12), np.ones(12), lines]))
+        assert settled._repeats() is ends
 
 
 @pytest.mark.slow  # a small cage through thirty periods

@@ -21,6 +21,7 @@ from moyai.flexible.panels import NetPanels, PanelArrays, PanelLaw, forces_on_pa
 from moyai.flexible.result import State
 from moyai.flexible.simulation import simulate
 from moyai.morison.net_law_names import Net, net_law, panel_force
+from moyai.sea.components import WaveComponents
 from moyai.sea.water import Water
 
 WATER = Water(50.0, 1025.0, 9.81)
@@ -218,6 +219,22 @@ def test_a_light_plate_slows_down_as_it_must_at_steps_far_above_its_own_time() -
     assert history.status == "converged"
     speed = np.diff(history.position[:, network.point("a"), 0])
     assert np.all(speed > -1e-12) and speed[-1] < 1e-3
+
+
+def test_held_loads_of_panels_give_what_a_quarter_of_the_step_gives() -> None:
+    """A net in waves on a current, at the usual step with loads held for up to four steps, against shorter ones."""
+    network = curtain(6, table_of("loland", Net.from_solidity(0.0025, 0.25)))
+    omega = 2.0 * np.pi / 4.0
+    waves = WaveComponents([omega], [0.8], [0.0], [0.0], [omega**2 / 9.81], WATER)
+    flow = Flow(velocity=(0.6, 0.0, 0.0), waves=waves, wave_ramp=4.0)
+    usual = simulate(network, duration=16.0, output_step=0.1, flow=flow, load_steps=1)
+    finer = simulate(network, duration=16.0, output_step=0.1, flow=flow, load_steps=1, step=0.25 * usual.step)
+    late = usual.time > 8.0
+    sums = [np.maximum(run.tension[late], 0.0).sum(axis=1) for run in (usual, finer)]
+    # twice what four steps give; loads that are held for twelve exceed each
+    assert sums[0].mean() == pytest.approx(sums[1].mean(), rel=4e-5)
+    assert sums[0].max() == pytest.approx(sums[1].max(), rel=1.8e-4)
+    assert np.abs(usual.position[late] - finer.position[late]).max() < 6e-4
 
 
 def test_rest_of_a_net_in_a_current_stays_at_rest() -> None:
