@@ -10,6 +10,7 @@ from __future__ import annotations
 
 import json
 import time
+from dataclasses import replace
 
 import numpy as np
 
@@ -19,6 +20,8 @@ from moyai.sea.states import IrregularSea
 from moyai.structures.cage.rigid.matsubara import VISCOSITY, WATER, model_cage, taut_lines
 from moyai.structures.cage.rigid.model import RigidCageProblem, RigidCageSettings
 from moyai.structures.cage.rigid.pack import pack
+from moyai.structures.cage.rigid.realisations import further_numbers
+from moyai.structures.cage.rigid.runs import run_wave
 from moyai.structures.cage.rigid.statics import equilibrium_with_lines
 from moyai.structures.cage.rigid.time import march, march_fixed
 from moyai.structures.cage.rigid.waves import wave_of, waves_of
@@ -96,6 +99,31 @@ def irregular(periods: int) -> dict[str, object]:
     }
 
 
+def company(count: int, periods: int) -> dict[str, object]:
+    """Time one realisation alone and so many on all cores, elapsed; their numbers must not depend on the company."""
+    cage = model_cage()
+    lines = taut_lines(cage)
+    sea = IrregularSea("sea", jonswap(0.02, 1.2, 3.3), duration=periods * 1.2, seed=1)
+    settings = RigidCageSettings(realisations=count + 1)
+    problem = RigidCageProblem("", cage, (), VISCOSITY, Environment(WATER), settings=settings)
+    rest = equilibrium_with_lines(cage, lines, WATER, VISCOSITY)
+    begin = time.perf_counter()
+    found = dict(further_numbers(problem, lines, rest, WATER, sea))
+    together = time.perf_counter() - begin
+    seed = next(iter(found))
+    (wave,) = waves_of(problem, replace(sea, seed=seed), WATER)
+    begin = time.perf_counter()
+    alone = run_wave(problem, lines, rest, WATER, wave).numbers
+    single = time.perf_counter() - begin
+    return {
+        "case": f"{count} realisations of {periods} waves on all cores",
+        "seconds": round(together, 2),
+        "seconds_of_one_alone": round(single, 2),
+        "ratio_to_one_after_the_other": round(count * single / together, 2),
+        "same_numbers": bool(np.array_equal(alone.line_tension_maximum, found[seed].line_tension_maximum)),
+    }
+
+
 def patches() -> dict[str, object]:
     """Return how the numbers change with the patches along an edge."""
     found = {}
@@ -116,6 +144,7 @@ if __name__ == "__main__":
         lambda: regular(2000.0, 1e-5),
         lambda: regular(30000.0, 1e-5),
         lambda: irregular(60),
+        lambda: company(8, 500),
         patches,
     ):
         print(json.dumps(case()), flush=True)

@@ -13,7 +13,7 @@ import numpy as np
 
 from moyai.core.arrays import Array
 from moyai.core.headline import Band, Headline
-from moyai.series.block_maxima import maximum_of
+from moyai.series.block_maxima import LEAST_PERIODS, maximum_of
 from moyai.structures.cage.flexible.law_runs import line_quantity
 from moyai.structures.cage.flexible.sensitivity import DRAG, LEAST_VOLUME, NET_TENSION, OFFSET, STRESS
 from moyai.structures.cage.settling import by_period, is_settled, scatters, still_to_come
@@ -22,6 +22,7 @@ if TYPE_CHECKING:
     import xarray as xr
 
 TOO_SHORT = "one seed, too short to show the scatter of its maximum"
+FEW_WAVES = f"records of fewer than {LEAST_PERIODS:g} peak periods: a longer sea gives more"
 UNSETTLED = "regular waves whose periods do not repeat yet"
 NO_LAWS = "without the net laws in the sea, whose runs failed"
 _SAME_LAWS = "the same net laws as for the volume"
@@ -218,9 +219,9 @@ def reach(
 def alone(item: Headline) -> Headline:
     """Return a number that is known as a bound alone as one: more is to come, of a volume less.
 
-    That of one seed too short to show its scatter, of waves that have not settled, without the laws in the sea.
+    That of seeds too short to show the scatter of a storm, of waves that have not settled, without the laws in the sea.
     """
-    if item.band is None or not any(words in item.band.of for words in (TOO_SHORT, UNSETTLED, NO_LAWS)):
+    if item.band is None or not any(words in item.band.of for words in (TOO_SHORT, FEW_WAVES, UNSETTLED, NO_LAWS)):
         return item
     return replace(item, bound="at most" if item.name == "volume_left" else "at least")
 

@@ -15,7 +15,7 @@ if TYPE_CHECKING:
 Groups = Mapping[str, "xr.Dataset"]
 
 
-def sea_words(name: str, run: xr.Dataset, current: float) -> str:
+def sea_words(name: str, run: xr.Dataset, current: float, realisations: int = 1) -> str:
     """Return a sea in words: its name or wave, the seed of an irregular one, and the current of the site.
 
     Parameters
@@ -26,8 +26,15 @@ def sea_words(name: str, run: xr.Dataset, current: float) -> str:
         Its series over time.
     current : float
         Speed of the current of the site [m/s].
+    realisations : int
+        Seeds that the number is of.
     """
-    words = [name, str(run.attrs["wave"]) if int(run.attrs["regular"]) else f"seed {int(run.attrs['seed'])}"]
+    words = [name]
+    if int(run.attrs["regular"]):
+        words.append(str(run.attrs["wave"]))
+    else:
+        others = f" and {realisations - 1} more" if realisations > 1 else ""
+        words.append(f"seed {int(run.attrs['seed'])}{others}")
     if current:
         words.append(f"current {abs(current):.3g} m/s")
     return ", ".join(words)

@@ -113,6 +113,11 @@ class RigidCageSettingsKeys(Block):
     fixed_step: Duration | None = Field(
         default=None, description="Runge-Kutta of fourth order with this step instead of adaptive steps."
     )
+    realisations: Annotated[int, Field(strict=True, ge=1, le=100)] = Field(
+        default=5,
+        description="Realisations of an irregular sea, the first with the sea's own seed; largest tensions and "
+        "offset are means over them. Default: 5.",
+    )
     stiffness_factors: Annotated[
         tuple[PositiveNumber, ...], Field(min_length=2, max_length=30), AfterValidator(once_each)
     ] = Field(

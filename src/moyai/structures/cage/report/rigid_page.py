@@ -103,7 +103,11 @@ def _motions(level: CageLevel) -> list[Block | None]:
 
 
 def _tensions(level: CageLevel) -> list[Block | None]:
-    return [tables.tension_table(level, sea) for sea in level.part("waves").children()]
+    return [
+        table(level, sea)
+        for sea in level.part("waves").children()
+        for table in (tables.tension_table, tables.largest_of_realisations)
+    ]
 
 
 def _stiffness(level: CageLevel) -> list[Block | None]:

@@ -9,6 +9,7 @@ import numpy as np
 from moyai.report.document import Column, Table
 from moyai.report.formatting import display_unit
 from moyai.report.reading import Group
+from moyai.report.realisations import realisations_table
 from moyai.structures.cage.report.rigid_reading import ENDS, CageLevel, key
 
 _CAGE = (
@@ -230,3 +231,9 @@ def tension_table(level: CageLevel, sea: Group) -> Table | None:
         + "Peaks are found within the time steps. They grow with the stiffness of the lines.",
         emphasised=(governing,) if peak[:, :, 0].max() > 0.0 else (),
     )
+
+
+def largest_of_realisations(level: CageLevel, sea: Group) -> Table | None:
+    """Return the largest tensions at the cage of the realisations of a sea."""
+    tension = sea.real("line_tension_maximum_of_realisation", "realisation", "line", end=ENDS[0])
+    return realisations_table(key(level, sea.name, "realisations"), sea.name, sea.labels("line"), tension)

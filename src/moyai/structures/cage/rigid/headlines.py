@@ -10,15 +10,21 @@ import numpy as np
 
 from moyai.core.arrays import Array
 from moyai.core.headline import Band, Headline
-from moyai.structures.cage.bands import alone, chance, laws_text
+from moyai.core.wording import spoken
+from moyai.series.block_maxima import too_short
+from moyai.series.realisations import seeds
+from moyai.structures.cage.bands import FEW_WAVES, alone, chance, laws_text
 from moyai.structures.cage.conditions import condition_headlines, sea_words
 from moyai.structures.cage.headlines import NOT_JUDGED, Groups, judged_seas
 from moyai.structures.cage.rigid.laws import IN_WAVES
+from moyai.structures.cage.rigid.realisations import MORE
 
 if TYPE_CHECKING:
     import xarray as xr
 
 RIGID = "rigid cage, run through time"
+#: Largest values of the realisations of a sea.
+_TENSIONS, _OFFSETS = "line_tension_maximum_of_realisation", "largest_offset_of_realisation"
 
 
 def rigid_headlines(groups: Groups) -> tuple[Headline, ...]:
@@ -79,13 +85,14 @@ def _rigid_tension(seas: Seas, groups: Groups) -> list[Headline]:
 
 
 def _tension_of(level: str, name: str, sea: xr.Dataset, wave: int, line: int, groups: Groups) -> Headline:
-    """Return the highest tension of a line in a wave, with its band and its mean at the same end."""
-    highest = sea["line_tension_maximum"].values[wave, line]
-    end = int(np.argmax(highest))
-    value, run = float(highest[end]), _run_of(level, name, sea, wave, groups)
+    """Return the highest tension of a line in a wave, the mean over realisations, with band and mean at that end."""
+    each = _each_tension(sea, wave)[:, line]
+    end = int(np.argmax(each.mean(axis=0)))
+    value, run = float(each[:, end].mean()), _run_of(level, name, sea, wave, groups)
     laws = _laws_of(level, name, sea, wave, groups)
-    band, said = _rigid_band(laws, run, value, run["line_tension_peak_since_row"].values[:, line], line)
-    where = f"{sea['line'].values[line]}, {_rigid_where(level, name, sea, wave, groups)}"
+    series = run["line_tension_peak_since_row"].values[:, line]
+    band, said = _rigid_band(laws, run, each[:, end], series, line)
+    where = f"{sea['line'].values[line]}, {_rigid_where(level, name, sea, wave, groups, realisations=len(each))}"
     return Headline(
         "line_tension", "highest line tension", value, "N", where, f"{RIGID}, {run.attrs['theory']}", band, detail=said,
         mean=float(sea["line_tension_mean"].values[wave, line, end]),
@@ -98,15 +105,17 @@ def _rigid_anchor(seas: Seas, groups: Groups) -> list[Headline]:
     for level, name, sea in seas:
         if not sea.sizes["line"]:
             continue
-        pulls = sea["anchor_tension_maximum"].values
-        for wave, line in np.ndindex(*pulls.shape):
-            title, value = sea["line"].values[line], float(pulls[wave, line])
+        for wave, line in np.ndindex(sea.sizes["wave"], sea.sizes["line"]):
+            each = _each_tension(sea, wave)[:, line]
+            pulls = each[:, list(sea["end"].values).index("anchor")]
+            title, value = sea["line"].values[line], float(pulls.mean())
             run = _run_of(level, name, sea, wave, groups)
             # the lower end has no series of its peaks: the chance is that of the line's largest tension
-            share = value / max(float(sea["line_tension_maximum"].values[wave, line].max()), 1e-300)
+            share = pulls[0] / max(float(each[0].max()), 1e-300)
             laws = _laws_of(level, name, sea, wave, groups)
-            band, _ = _rigid_band(laws, run, value, share * run["line_tension_peak_since_row"].values[:, line], line)
-            where = f"lower end of {title}, {_rigid_where(level, name, sea, wave, groups)}"
+            band, _ = _rigid_band(laws, run, pulls, share * run["line_tension_peak_since_row"].values[:, line], line)
+            place = _rigid_where(level, name, sea, wave, groups, realisations=len(each))
+            where = f"lower end of {title}, {place}"
             model = f"{RIGID}, {run.attrs['theory']}"
             found.append(Headline("anchor_tension", "largest pull on an anchor", value, "N", where, model, band))
     return judged_seas(found)
@@ -127,14 +136,16 @@ def _rigid_offset(seas: Seas, groups: Groups) -> list[Headline]:
         if not sea.sizes["line"]:
             continue
         at_rest, offsets = rigid_offsets(groups[f"/{level}/statics"], sea)
-        for wave, value in enumerate(offsets):
+        for wave, own in enumerate(offsets):
+            each = sea[_OFFSETS].values if _OFFSETS in sea else np.array([own])
+            value = float(each.mean())
             run = _run_of(level, name, sea, wave, groups)
             laws = _laws_of(level, name, sea, wave, groups)
-            band, said = _rigid_band(laws, run, float(value), np.abs(at_rest + run["sway"].values))
-            where = _rigid_where(level, name, sea, wave, groups)
+            band, said = _rigid_band(laws, run, each, np.abs(at_rest + run["sway"].values))
+            where = _rigid_where(level, name, sea, wave, groups, realisations=each.size)
             found.append(
                 Headline(
-                    "offset", "largest offset from where it floats freely", float(value), "m", where,
+                    "offset", "largest offset from where it floats freely", value, "m", where,
                     f"{RIGID}, {run.attrs['theory']}", band, detail=said,
                 )
             )  # fmt: skip
@@ -149,27 +160,54 @@ def _laws_of(level: str, name: str, sea: xr.Dataset, wave: int, groups: Groups) 
     return [group for path, group in groups.items() if path.startswith(f"/{level}/{IN_WAVES}/")]
 
 
+def _each_tension(sea: xr.Dataset, wave: int) -> Array:
+    """Return the highest tension of every realisation, one of a regular wave; (realisations, lines, ends) [N]."""
+    if _TENSIONS in sea:
+        return np.asarray(sea[_TENSIONS].values)
+    return np.asarray(sea["line_tension_maximum"].values[wave : wave + 1])
+
+
 def _rigid_band(
-    laws: list[xr.Dataset], run: xr.Dataset, value: float, series: Array, line: int | None = None
+    laws: list[xr.Dataset], run: xr.Dataset, each: Array, series: Array, line: int | None = None
 ) -> tuple[Band | None, str]:
     """Return what other seeds and the laws valid for this net make of a number, and what is to be said of it.
 
-    The number is the tension of a line where one is named, else the offset.
+    The number is the tension of a line where one is named, else the offset; ``each`` holds that of every realisation
+    and ``series`` what the first is the largest value of.
     """
-    low, high, seed = chance(run, value, series)
-    words, said = [seed] if seed else [], ""
+    least, most, words, said = _laws_of_band(laws, line)
+    several = seeds(each, more=MORE)
+    if several is None:
+        value = float(each[0])
+        low, high, seed = chance(run, value, series)
+        words = ([seed] if seed else []) + words
+        return (Band(low * least, high * most, "; ".join(words)) if words else None), said
+    time = run["time"].values
+    short = too_short(time[time >= float(run.attrs["ramp"])], float(run.attrs["period"]))
+    few = [FEW_WAVES] if short else []
+    said = "; ".join(filter(None, (_scatter_text(each, "m" if line is None else "N"), said)))
+    return replace(several.scaled(least, most), of="; ".join([several.of, *few, *words])), said
+
+
+def _scatter_text(each: Array, unit: str) -> str:
+    deviation = spoken(float(each.std(ddof=1)), unit, 2, like=float(each.mean()))
+    return f"mean of the largest of {each.size} realisations, their standard deviation {deviation}"
+
+
+def _laws_of_band(laws: list[xr.Dataset], line: int | None) -> tuple[float, float, list[str], str]:
+    """Return by which factors the laws move a number, with words for the band and for the number."""
+    words: list[str] = []
     several = [one for one in laws if one.sizes["law"] > 1]
-    least, most = 1.0, 1.0
+    least, most, said = 1.0, 1.0, ""
     for one in several:
         values = one["law_largest_offset"].values if line is None else one["law_line_tension"].values[:, line]
         if values[0] > 0.0:
             least, most = min(least, float(values.min() / values[0])), max(most, float(values.max() / values[0]))
     if several:
-        low, high = low * least, high * most
         words.append(laws_text(several[0]))
     elif laws:
         said = "no second net law is valid for this net"
-    return (Band(low, high, "; ".join(words)) if words else None), said
+    return least, most, words, said
 
 
 def _label(sea: xr.Dataset, wave: int) -> str:
@@ -181,10 +219,10 @@ def _run_of(level: str, name: str, sea: xr.Dataset, wave: int, groups: Groups) -
     return groups[f"/{level}/time/{name}/{_label(sea, wave)}"]
 
 
-def _rigid_where(level: str, name: str, sea: xr.Dataset, wave: int, groups: Groups) -> str:
+def _rigid_where(level: str, name: str, sea: xr.Dataset, wave: int, groups: Groups, *, realisations: int = 1) -> str:
     """Return sea, wave or seed, current and level of a number of a rigid cage."""
     run = _run_of(level, name, sea, wave, groups)
-    return f"{sea_words(name, run, float(groups[f'/{level}'].attrs['current']))}, {level}"
+    return f"{sea_words(name, run, float(groups[f'/{level}'].attrs['current']), realisations)}, {level}"
 
 
 def _rigid_motions(seas: Seas, groups: Groups) -> list[Headline]:

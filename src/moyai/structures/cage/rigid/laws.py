@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from moyai.core.arrays import Array
+from moyai.core.at_once import one_after_the_other
 from moyai.core.progress import Progress, silent
 from moyai.core.validity import Notice
 from moyai.morison.net_law_base import NetLaw
@@ -68,18 +69,24 @@ def laws_dataset(
     laws: tuple[NetLaw, ...] = (choice.chosen, *choice.others)
     highest, at_rest, offset = known
     peaks, offsets = [np.asarray(highest)], [offset]
-    for number, law in enumerate(laws[1:], start=1):
-        progress("laws of nets", number, len(laws))
+
+    def run_under(law: NetLaw, heard: Progress) -> tuple[Array, float]:
         other = replace(problem, cage=replace(cage, law=law))
         begin = rest
         if problem.environment.current is not None:
             begin = equilibrium_with_lines(
                 other.cage, lines, water, problem.kinematic_viscosity, problem.environment.current
             )  # fmt: skip
-        numbers = run_wave(other, lines, begin, water, wave).numbers
-        peaks.append(numbers.line_tension_maximum.reshape(len(lines), -1).max(axis=1))
-        offsets.append(numbers.largest_offset(at_rest + begin.x - rest.x))
-    progress("laws of nets", len(laws), len(laws))
+        found = run_wave(other, lines, begin, water, wave, progress=heard)
+        if found.march.status == "interrupted":
+            raise KeyboardInterrupt
+        numbers = found.numbers
+        highest = numbers.line_tension_maximum.reshape(len(lines), -1).max(axis=1)
+        return highest, numbers.largest_offset(at_rest + begin.x - rest.x)
+
+    for pulls, way in one_after_the_other(run_under, laws[1:], "laws of nets", progress):
+        peaks.append(pulls)
+        offsets.append(way)
     coefficients = [float(law.coefficients(0.0, speed, cage.net, problem.kinematic_viscosity)[0]) for law in laws]
     found = labelled(
         xr.Dataset(

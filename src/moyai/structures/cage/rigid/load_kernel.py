@@ -11,7 +11,16 @@ import numpy as np
 
 from moyai.core.arrays import Array
 from moyai.core.compiled import njit
-from moyai.structures.cage.rigid.water_kernel import PackedCage, current_at, fill_series, water_motion
+from moyai.structures.cage.rigid.water_kernel import (
+    POINT_ROWS,
+    TILE,
+    PackedCage,
+    X,
+    Z,
+    current_at,
+    fill_series,
+    water_motion,
+)
 
 
 @njit(cache=True, error_model="numpy", inline="always")
@@ -94,6 +103,43 @@ def tension_of(p: PackedCage, number: int, y: Array, work: Array) -> float:
     return p.lines[number, 5] * work[0] + p.lines[number, 6] * work[1]
 
 
+@njit(cache=True, error_model="numpy", inline="always")
+def _place_arms(parts: Array, first: int, cosine: float, sine: float, out: Array) -> int:
+    """Turn the arms of parts into site axes, from column ``first``; return the next column."""
+    for i in range(parts.shape[0]):
+        out[5, first + i] = cosine * parts[i, 0] + sine * parts[i, 1]
+        out[6, first + i] = -sine * parts[i, 0] + cosine * parts[i, 1]
+    return first + parts.shape[0]
+
+
+@njit(cache=True, error_model="numpy")
+def water_at_parts(p: PackedCage, t: float, y: Array, cosine: float, sine: float) -> Array:
+    """Return elevation, velocity, acceleration of the water at all parts and their arms, shape (7, parts).
+
+    Parts in the order of spheres, patches, rods and blocks.
+    """
+    count = p.spheres.shape[0] + p.patches.shape[0] + p.rods.shape[0] + p.blocks.shape[0]
+    out = np.empty((POINT_ROWS, count))
+    first = _place_arms(p.spheres, 0, cosine, sine, out)
+    first = _place_arms(p.patches, first, cosine, sine, out)
+    first = _place_arms(p.rods, first, cosine, sine, out)
+    _place_arms(p.blocks, first, cosine, sine, out)
+    # many waves are summed into a series about the cage, few at every part
+    series = np.empty((5, p.summed.shape[2]))
+    if series.shape[1] > 0:
+        fill_series(p, t, y[0], y[1], series)
+    points = np.empty(POINT_ROWS * TILE)
+    for begin in range(0, count, TILE):
+        size = min(TILE, count - begin)
+        for i in range(size):
+            points[X + i], points[Z + i] = y[0] + out[5, begin + i], y[1] + out[6, begin + i]
+        water_motion(p, t, points, size, series)
+        for row in range(5):
+            for i in range(size):
+                out[row, begin + i] = points[row * TILE + i]
+    return out
+
+
 @njit(cache=True, error_model="numpy")
 def loads(p: PackedCage, t: float, y: Array, taut: Array, force: Array, mass: Array, work: Array) -> None:
     """Fill the generalised force without added mass terms in the accelerations, and the mass matrix [eq:cage-motion].
@@ -105,10 +151,8 @@ def loads(p: PackedCage, t: float, y: Array, taut: Array, force: Array, mass: Ar
     vertical, constant_buoyancy = p.body[4], p.body[5]
     cosine, sine = math.cos(y[2]), math.sin(y[2])
     turn = y[5] * y[5]
-    # many waves are summed into a series about the cage, few at every part
-    series = np.empty((5, p.summed.shape[2]))
-    if series.shape[1] > 0:
-        fill_series(p, t, y[0], y[1], series)
+    at = water_at_parts(p, t, y, cosine, sine)
+    part = -1
     force[:] = 0.0
     mass[:] = 0.0
     mass[0, 0] = mass[1, 1] = p.body[0]
@@ -119,11 +163,11 @@ def loads(p: PackedCage, t: float, y: Array, taut: Array, force: Array, mass: Ar
     weightless = constant_buoyancy >= 0.0
     for i in range(p.spheres.shape[0]):
         e = p.spheres[i]
-        rx, rz = cosine * e[0] + sine * e[1], -sine * e[0] + cosine * e[1]
-        x, z = y[0] + rx, y[1] + rz
-        water_motion(p, t, x, z, series, work)
+        part += 1
+        rx, rz = at[5, part], at[6, part]
+        z = y[1] + rz
         radius = e[2]
-        high = work[0] - z + radius
+        high = at[0, part] - z + radius
         if high <= 0.0 and not weightless:
             continue
         if high >= 2.0 * radius or weightless:
@@ -135,12 +179,12 @@ def loads(p: PackedCage, t: float, y: Array, taut: Array, force: Array, mass: Ar
         volume *= e[3]
         plane *= e[3]
         vx, vz = y[3] + y[5] * rz, y[4] - y[5] * rx
-        wx, wz = work[1] + current_at(p.current, z) - vx, work[2] - vz
+        wx, wz = at[1, part] + current_at(p.current, z) - vx, at[2, part] - vz
         speed = math.sqrt(wx * wx + wz * wz)
         drag = 0.5 * density * e[4] * math.pi * radius * radius * e[3] * share * speed
         added = density * volume * e[6]
-        fx = drag * wx + density * volume * e[5] * work[3] + added * turn * rx
-        fz = drag * wz + density * volume * e[5] * work[4] + added * turn * rz
+        fx = drag * wx + density * volume * e[5] * at[3, part] + added * turn * rx
+        fz = drag * wz + density * volume * e[5] * at[4, part] + added * turn * rz
         # kinetic energy of the water that goes along changes with the depth of immersion [eq:cage-immersion]
         changing = density * plane * e[6]
         fx += changing * wz * wx
@@ -151,15 +195,15 @@ def loads(p: PackedCage, t: float, y: Array, taut: Array, force: Array, mass: Ar
         _add_mass(mass, rx, rz, added, 0.0, added)
     for i in range(p.patches.shape[0]):
         e = p.patches[i]
-        rx, rz = cosine * e[0] + sine * e[1], -sine * e[0] + cosine * e[1]
+        part += 1
+        rx, rz = at[5, part], at[6, part]
         nx, nz = cosine * e[2] + sine * e[3], -sine * e[2] + cosine * e[3]
-        x, z = y[0] + rx, y[1] + rz
-        water_motion(p, t, x, z, series, work)
-        share = 1.0 if weightless else _wet(work[0], z, e[6] * math.sqrt(max(0.0, 1.0 - nz * nz)))
+        z = y[1] + rz
+        share = 1.0 if weightless else _wet(at[0, part], z, e[6] * math.sqrt(max(0.0, 1.0 - nz * nz)))
         if share <= 0.0:
             continue
         vx, vz = y[3] + y[5] * rz, y[4] - y[5] * rx
-        wx, wz = work[1] + e[10] * current_at(p.current, z) - vx, work[2] - vz
+        wx, wz = at[1, part] + e[10] * current_at(p.current, z) - vx, at[2, part] - vz
         across = wx * nx + wz * nz
         tx, tz = wx - across * nx, wz - across * nz
         along_squared = max(0.0, wx * wx + wz * wz - across * across)
@@ -177,11 +221,11 @@ def loads(p: PackedCage, t: float, y: Array, taut: Array, force: Array, mass: Ar
                 fx += head * tangential * tx / along
                 fz += head * tangential * tz / along
         volume = e[5] * share
-        fx += density * volume * e[7] * work[3]
-        fz += density * volume * e[7] * work[4]
+        fx += density * volume * e[7] * at[3, part]
+        fz += density * volume * e[7] * at[4, part]
         # added mass: both families of twines across the panel, half of their length along it
         first, second = density * volume * e[8], 0.5 * density * volume * e[8]
-        ax, az = work[3] * e[9] + turn * rx, work[4] * e[9] + turn * rz
+        ax, az = at[3, part] * e[9] + turn * rx, at[4, part] * e[9] + turn * rz
         through = ax * nx + az * nz
         fx += second * ax + (first - second) * through * nx
         fz += second * az + (first - second) * through * nz
@@ -198,25 +242,25 @@ def loads(p: PackedCage, t: float, y: Array, taut: Array, force: Array, mass: Ar
         _add_mass(mass, rx, rz, second + body * nx, body * nz, second + (first - second) * nz * nz)
     for i in range(p.rods.shape[0]):
         e = p.rods[i]
-        rx, rz = cosine * e[0] + sine * e[1], -sine * e[0] + cosine * e[1]
+        part += 1
+        rx, rz = at[5, part], at[6, part]
         ex, ez = cosine * e[2] + sine * e[3], -sine * e[2] + cosine * e[3]
-        x, z = y[0] + rx, y[1] + rz
-        water_motion(p, t, x, z, series, work)
-        share = 1.0 if weightless else _wet(work[0], z, 0.5 * (abs(ez) * e[4] / e[11] + e[5]))
+        z = y[1] + rz
+        share = 1.0 if weightless else _wet(at[0, part], z, 0.5 * (abs(ez) * e[4] / e[11] + e[5]))
         if share <= 0.0:
             continue
         vx, vz = y[3] + y[5] * rz, y[4] - y[5] * rx
-        wx, wz = work[1] + current_at(p.current, z) - vx, work[2] - vz
+        wx, wz = at[1, part] + current_at(p.current, z) - vx, at[2, part] - vz
         along = wx * ex + wz * ez
         px, pz = wx - along * ex, wz - along * ez
         speed = math.sqrt(max(0.0, wx * wx + wz * wz - along * along))
         drag = 0.5 * density * e[7] * e[5] * e[4] * share * speed
         volume = e[6] * share
         added = density * volume * e[8]
-        ax, az = work[3] * e[9] + turn * rx, work[4] * e[9] + turn * rz
+        ax, az = at[3, part] * e[9] + turn * rx, at[4, part] * e[9] + turn * rz
         through = ax * ex + az * ez
-        fx = drag * px + density * volume * e[10] * work[3] + added * (ax - through * ex)
-        fz = drag * pz + density * volume * e[10] * work[4] + added * (az - through * ez)
+        fx = drag * px + density * volume * e[10] * at[3, part] + added * (ax - through * ex)
+        fz = drag * pz + density * volume * e[10] * at[4, part] + added * (az - through * ez)
         swept = y[5] * (wx * ez - wz * ex)
         fx -= added * (swept * ex + along * y[5] * ez)
         fz -= added * (swept * ez - along * y[5] * ex)
@@ -227,14 +271,14 @@ def loads(p: PackedCage, t: float, y: Array, taut: Array, force: Array, mass: Ar
         _add_mass(mass, rx, rz, added * (1.0 - ex * ex), -added * ex * ez, added * (1.0 - ez * ez))
     for i in range(p.blocks.shape[0]):
         e = p.blocks[i]
-        rx, rz = cosine * e[0] + sine * e[1], -sine * e[0] + cosine * e[1]
-        water_motion(p, t, y[0] + rx, y[1] + rz, series, work)
+        part += 1
+        rx, rz = at[5, part], at[6, part]
         added = density * e[2] * e[4]
-        fx = density * e[2] * e[3] * work[3] + added * turn * rx
-        fz = density * e[2] * e[3] * work[4] + added * turn * rz
+        fx = density * e[2] * e[3] * at[3, part] + added * turn * rx
+        fz = density * e[2] * e[3] * at[4, part] + added * turn * rz
         vx, vz = y[3] + y[5] * rz, y[4] - y[5] * rx
-        wx = work[1] + current_at(p.current, y[1] + rz) - vx
-        wz = work[2] - vz
+        wx = at[1, part] + current_at(p.current, y[1] + rz) - vx
+        wz = at[2, part] - vz
         # force on an area by the law of the net at normal flow, each component with its own square
         normal, _ = _table(p, 0.0, abs(wx))
         fx += 0.5 * density * e[5] * normal * wx * abs(wx)

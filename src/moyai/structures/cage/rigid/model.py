@@ -88,6 +88,8 @@ class RigidCageSettings:
     tolerance: float = 1e-6
     #: Step of the fourth-order method [s] that takes the place of the adaptive one.
     fixed_step: float | None = None
+    #: Of an irregular sea, the first with its own seed; largest values are means over them.
+    realisations: int = 5
     #: Multiples of the line stiffness of ``sensitivity`` [-].
     stiffness_factors: tuple[float, ...] = (1.0 / 3.0, 1.0, 10.0 / 3.0, 10.0)
     #: Line stiffnesses of ``sensitivity`` that take the place of the multiples [N/m].

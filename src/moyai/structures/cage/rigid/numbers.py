@@ -57,6 +57,7 @@ def numbers_of(found: March, rest: Array, ends: Array, peak_at_ends: Array, peri
     """
     keep = found.time >= skip - 1e-9 * period
     time, motion = found.time[keep], found.state[keep][:, :3] - rest
+    pulls, peaks = ends[keep], peak_at_ends[keep]
     spacing = found.time[1] - found.time[0]
     count = max(1, round(period / spacing))
     whole = max((len(time) - 1) // count, 0)
@@ -68,11 +69,10 @@ def numbers_of(found: March, rest: Array, ends: Array, peak_at_ends: Array, peri
         part = motion[n * count : (n + 1) * count + 1]
         drift = np.linspace(0.0, 1.0, len(part))[:, None] * (part[-1] - part[0])
         ranges.append(np.ptp(part - drift, axis=0))
-        tops.append(peak_at_ends[keep][n * count : (n + 1) * count + 1].max(axis=0))
+        tops.append(peaks[n * count : (n + 1) * count + 1].max(axis=0))
     table = np.array(ranges)
     used = slice(0, whole * count + 1)
     harmonic, phase = _first_harmonic(time[used], motion[used], period)
-    pulls, peaks = ends[keep], peak_at_ends[keep]
     return Numbers(
         range=table.mean(axis=0),
         largest_range=table.max(axis=0),

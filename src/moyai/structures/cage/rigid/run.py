@@ -33,6 +33,7 @@ from moyai.structures.cage.rigid.lines import CageLine
 from moyai.structures.cage.rigid.model import CageSea, RigidCageProblem, RigidCageWaves
 from moyai.structures.cage.rigid.modes import natural_modes
 from moyai.structures.cage.rigid.pack import pack
+from moyai.structures.cage.rigid.realisations import further_numbers, lost, with_realisations
 from moyai.structures.cage.rigid.runs import RigidCageRun, run_wave
 from moyai.structures.cage.rigid.sensitivity import sensitivity_dataset
 from moyai.structures.cage.rigid.setup import at_level, lines_of
@@ -201,6 +202,16 @@ def _sea_steps(
             )
         collected.notices.extend(height_notices(sea.name, series))
         yield
+    if isinstance(sea, IrregularSea) and runs[0].march.status == "converged":
+        at_rest, _ = rigid_offsets(collected.groups[f"{root}/statics"], collected.groups[f"{root}/waves/{sea.name}"])
+        others = []
+        for one in further_numbers(problem, lines, rest, water, sea, progress):
+            others.append(one)
+            own = sea_dataset(problem, water, runs, lines)
+            numbers = with_realisations(own, (sea.seed, runs[0].numbers), others, at_rest)
+            collected.groups[f"{root}/waves/{sea.name}"] = numbers
+            yield
+        reported.extend(lost(others))
     collected.notices.extend(
         replace(notice, message=f"{sea.name}: {notice.message}") for notice in most_severe(reported)
     )

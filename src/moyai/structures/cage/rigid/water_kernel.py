@@ -5,8 +5,14 @@ from __future__ import annotations
 import math
 from typing import NamedTuple
 
+import numpy as np
+
 from moyai.core.arrays import Array
 from moyai.core.compiled import njit
+
+#: Points whose water is found together, and where their numbers begin: elevation, velocity, acceleration, place.
+TILE, POINT_ROWS = 64, 7
+ETA, U, W, DU, DW, X, Z = (row * TILE for row in range(POINT_ROWS))
 
 
 class PackedCage(NamedTuple):
@@ -29,6 +35,7 @@ class PackedCage(NamedTuple):
     depth_parts: Array
     summed_at: Array
     summed: Array
+    powers: Array
 
 
 @njit(cache=True, error_model="numpy", inline="always")
@@ -109,38 +116,44 @@ def _sum_waves(p: PackedCage, number: float, out: Array) -> None:
     """Sum the waves at a time of the grid into the coefficients of their series [eq:cage-series-of-waves].
 
     Rows of ``out``: elevation, velocity u - i w (real, imaginary), acceleration (real, imaginary); then their rates.
+    A derivative along x + i z turns cosine into minus sine and sine into cosine: terms of even order are sums of the
+    quantity itself, those of odd order of its neighbour, with the same sign twice.
     """
-    reach, step = p.series[0], p.series[1]
+    step = p.series[1]
     t = number * step
     c = p.components
     terms = out.shape[1]
-    out[:] = 0.0
+    half = p.powers.shape[2]
+    sums = np.zeros((2, 10, half))
+    own, next_ = np.empty(10), np.empty(10)
     for i in range(c.shape[1]):
         sense, sigma, omega = c[6, i], c[1, i], c[0, i]
         angle = sense * c[4, i] * p.centre[0] - omega * t + c[3, i]
         cosine, sine = c[2, i] * math.cos(angle), c[2, i] * math.sin(angle)
         across, upward = p.depth_parts[0, i], p.depth_parts[1, i]
         # cosine and sine of the complex phase s k (x + i (z + h)) - omega t + eps, over sinh kh
-        c_real, c_imaginary = across * cosine, -sense * upward * sine
-        s_real, s_imaginary = across * sine, sense * upward * cosine
-        factor = 1.0
         speed = sense * sigma
+        c_real, c_imaginary = speed * across * cosine, -speed * sense * upward * sine
+        s_real, s_imaginary = speed * across * sine, speed * sense * upward * cosine
+        own[0], next_[0] = cosine, -sine
+        own[1], next_[1] = c_real, -s_real
+        own[2], next_[2] = c_imaginary, -s_imaginary
+        own[3], next_[3] = sigma * s_real, sigma * c_real
+        own[4], next_[4] = sigma * s_imaginary, sigma * c_imaginary
+        own[5], next_[5] = omega * sine, omega * cosine
+        own[6], next_[6] = omega * s_real, omega * c_real
+        own[7], next_[7] = omega * s_imaginary, omega * c_imaginary
+        own[8], next_[8] = -omega * sigma * c_real, omega * sigma * s_real
+        own[9], next_[9] = -omega * sigma * c_imaginary, omega * sigma * s_imaginary
+        for row in range(10):
+            even, odd = own[row], next_[row]
+            for n in range(half):
+                sums[0, row, n] += even * p.powers[0, i, n]
+            for n in range(half):
+                sums[1, row, n] += odd * p.powers[1, i, n]
+    for row in range(10):
         for n in range(terms):
-            out[0, n] += factor * cosine
-            out[1, n] += factor * speed * c_real
-            out[2, n] += factor * speed * c_imaginary
-            out[3, n] += factor * speed * sigma * s_real
-            out[4, n] += factor * speed * sigma * s_imaginary
-            out[5, n] += factor * omega * sine
-            out[6, n] += factor * speed * omega * s_real
-            out[7, n] += factor * speed * omega * s_imaginary
-            out[8, n] -= factor * speed * sigma * omega * c_real
-            out[9, n] -= factor * speed * sigma * omega * c_imaginary
-            # next derivative along x + i z: cosine to minus sine, sine to cosine
-            cosine, sine = -sine, cosine
-            c_real, s_real = -s_real, c_real
-            c_imaginary, s_imaginary = -s_imaginary, c_imaginary
-            factor *= sense * c[4, i] * reach / (n + 1.0)
+            out[row, n] = sums[n % 2, row, n // 2]
 
 
 @njit(cache=True, error_model="numpy")
@@ -170,30 +183,47 @@ def fill_series(p: PackedCage, t: float, x: float, z: float, out: Array) -> None
 
 
 @njit(cache=True, error_model="numpy")
-def _from_series(p: PackedCage, x: float, z: float, series: Array, out: Array) -> None:
-    """Evaluate the series of the waves at a point."""
+def _from_series(p: PackedCage, series: Array, points: Array, count: int) -> None:
+    """Evaluate the series of the waves at points, side by side so that they fill the registers of a processor."""
     reach, depth = p.series[0], p.water[2]
     terms = series.shape[1]
-    along = (x - p.centre[0]) / reach
-    eta = 0.0
+    for i in range(count):
+        points[X + i] = (points[X + i] - p.centre[0]) / reach
+        points[ETA + i] = 0.0
+        points[U + i] = points[W + i] = points[DU + i] = points[DW + i] = 0.0
     for n in range(terms - 1, -1, -1):
-        eta = eta * along + series[0, n]
-    level = z
-    if p.water[4] == 2.0:
-        level = z - eta if math.isinf(depth) else (z - eta) * depth / (depth + eta)
-    up = (min(max(level, -depth), 0.0) - p.centre[1]) / reach
-    u, w, first, second = 0.0, 0.0, 0.0, 0.0
+        term = series[0, n]
+        for i in range(count):
+            points[ETA + i] = points[ETA + i] * points[X + i] + term
+    for i in range(count):
+        level = points[Z + i]
+        if p.water[4] == 2.0:
+            here = points[ETA + i]
+            level = level - here if math.isinf(depth) else (level - here) * depth / (depth + here)
+        points[Z + i] = (min(max(level, -depth), 0.0) - p.centre[1]) / reach
     for n in range(terms - 1, -1, -1):
-        u, w = u * along - w * up + series[1, n], u * up + w * along + series[2, n]
-        first, second = first * along - second * up + series[3, n], first * up + second * along + series[4, n]
-    out[0] = eta
-    out[1], out[2], out[3], out[4] = u, -w, first, -second
+        a, b, c, d = series[1, n], series[2, n], series[3, n], series[4, n]
+        for i in range(count):
+            x, z = points[X + i], points[Z + i]
+            v, h = points[U + i], points[W + i]
+            points[U + i], points[W + i] = v * x - h * z + a, v * z + h * x + b
+            v, h = points[DU + i], points[DW + i]
+            points[DU + i], points[DW + i] = v * x - h * z + c, v * z + h * x + d
+    for i in range(count):
+        points[W + i], points[DW + i] = -points[W + i], -points[DW + i]
 
 
-@njit(cache=True, error_model="numpy", inline="always")
-def water_motion(p: PackedCage, t: float, x: float, z: float, series: Array, out: Array) -> None:
-    """Fill elevation, velocity and acceleration at a point, wave by wave or from their series."""
+@njit(cache=True, error_model="numpy")
+def water_motion(p: PackedCage, t: float, points: Array, count: int, series: Array) -> None:
+    """Fill elevation, velocity and acceleration at up to ``TILE`` points, wave by wave or from their series.
+
+    ``points`` holds rows of ``TILE`` numbers: the five that come back, then x and z, which change.
+    """
     if series.shape[1] > 0:
-        _from_series(p, x, z, series, out)
-    else:
-        water_at(p, t, x, z, out)
+        _from_series(p, series, points, count)
+        return
+    out = np.empty(5)
+    for i in range(count):
+        water_at(p, t, points[X + i], points[Z + i], out)
+        for row in range(5):
+            points[row * TILE + i] = out[row]

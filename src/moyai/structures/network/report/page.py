@@ -103,7 +103,7 @@ def _of_runs(level: NetworkLevel, governing: HighestTension | None) -> Sequence[
             tables.bodies_table(level, run),
             tables.peaks_table(level, run),
             tables.points_table(level, run),
-            tables.realisations_table(level, run),
+            tables.largest_of_realisations(level, run),
             figures.realisations_figure(level, run),
             figures.exceedance_figure(level, run),
             tables.contact_table(level, run),

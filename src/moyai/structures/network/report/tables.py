@@ -11,7 +11,7 @@ from moyai.core.arrays import Array
 from moyai.report.document import Column, Table
 from moyai.report.encoding import slug
 from moyai.report.reading import Group
-from moyai.series.intervals import reach_of_mean
+from moyai.report.realisations import realisations_table
 from moyai.structures.network.report.reading import NetworkLevel, texts
 
 #: Rows of tables that a reader goes through; longer ones are folded away, and cut.
@@ -249,29 +249,11 @@ def uncertainty_table(level: NetworkLevel) -> Table | None:
     )  # fmt: skip
 
 
-def realisations_table(level: NetworkLevel, run: Group) -> Table | None:
+def largest_of_realisations(level: NetworkLevel, run: Group) -> Table | None:
     """Return the largest tensions of the realisations of a sea."""
     dynamic = level.part("dynamic")
     tension = dynamic.real("line_tension_maximum_of_realisation", "member", "line", run=run.name)
-    known = np.zeros(0, dtype=bool) if tension is None else np.isfinite(tension).all(axis=1)
-    if tension is None or known.sum() < 2:
-        return None
-    found = tension[known]
-    reach = np.array([reach_of_mean(column) for column in found.T])
-    return _table(
-        slug(level.name, run.name, "realisations"),
-        f"Highest tension in {found.shape[0]} realisations: {run.name}",
-        [
-            Column("Line", list(dynamic.labels("line"))),
-            _column("Mean", found.mean(axis=0), "N"),
-            _column("its 95 % end", found.mean(axis=0) + reach, "N"),
-            _column("Standard deviation", found.std(axis=0, ddof=1), "N"),
-            _column("Smallest", found.min(axis=0), "N"),
-            _column("Largest", found.max(axis=0), "N"),
-        ],
-        "Each realisation has other phases of the same waves; the other tables and figures show the first. "
-        "95 % end: of the one-sided interval of the mean.",
-    )
+    return realisations_table(slug(level.name, run.name, "realisations"), run.name, dynamic.labels("line"), tension)
 
 
 def contact_table(level: NetworkLevel, run: Group) -> Table | None:
