@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
+from functools import lru_cache
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -178,20 +179,22 @@ def simulate_in_flow(
     if not (math.isfinite(start[0]) and math.isfinite(start[1])):
         raise InputError("start is not finite", parameter="start", allowed="position [m] and speed [m/s]")
     taut = taut_shape(impact.span_ratio)
-    cable = np.array([impact.span, impact.span_ratio, taut, impact.stiffness, slack_sag(impact)])
-    drag = 0.5 * impact.water.density * drag_coefficient * impact.draught
-    table = np.zeros((_TABLE_ROWS, 5))
+    drag = 0.5 * impact.water.density * drag_coefficient * impact.draught / moved
     # as far as model A goes at the largest speed that the water and the start give, and once more
     fastest = max(float(np.abs(given[:, 0]).max()), abs(start[1]), 1e-9)
     reach = 2.0 * float(sweep_peaks(impact.span, impact.length, impact.stiffness, fastest, moved)[1])
-    table[:, 0] = reach * np.linspace(0.0, 1.0, _TABLE_ROWS) ** 2
-    load_table(impact.span, impact.span_ratio, taut, impact.stiffness, table)
+    # powers of two, so that runs of one span share their table
+    reach = 2.0 ** math.ceil(math.log2(reach))
+    table = _table(impact.span, impact.span_ratio, taut, impact.stiffness, reach)
+    cable = np.array(
+        [impact.span, impact.span_ratio, taut, impact.stiffness, slack_sag(impact), reach, 1.0 / moved, 1.0 / reach]
+    )
     out = np.zeros((len(given), 3))
     room = 1000
     while True:
         out[0, :2] = start
         rows = np.zeros((room, 6))
-        count = slack_taut(cable, table, moved, drag, given, time_step, longest, out, rows)
+        count = slack_taut(cable, table, drag, given, time_step, longest, out, rows)
         if count <= room:
             break
         room = count
@@ -199,6 +202,13 @@ def simulate_in_flow(
     position, speed, tension = out.T.copy()
     level = float(given[:, 0].mean()) if mean_speed is None else mean_speed
     return SlackTautMotion(time, position, speed, tension, _contacts(rows[:count], time, given[:, 0] - level))
+
+
+@lru_cache(maxsize=16)
+def _table(span: float, span_ratio: float, taut: float, stiffness: float, reach: float) -> Array:
+    table = np.zeros((_TABLE_ROWS, 9))
+    load_table(span, span_ratio, taut, stiffness, reach, table)
+    return table
 
 
 def _contacts(table: Array, time: Array, wave: Array) -> tuple[CableContact, ...]:

@@ -276,128 +276,127 @@ def cable_and_skirt(cable: Array, skirt: Array, inverse: Array, speed: float, st
 
 
 @njit(cache=True, error_model="numpy")
-def _flow_at(flow: Array, place: float) -> tuple[float, float]:
-    """Velocity and acceleration of the water at a place counted in steps, by cubics through four samples."""
+def _cubics_of_flow(flow: Array, n: int, out: Array) -> float:
+    """Fill the cubics through four samples about step ``n``: of the water's velocity, then of its acceleration.
+
+    They are polynomials of a place counted in steps from the second of the four samples; returns that of sample ``n``.
+    """
     last = flow.shape[0] - 1
+    out[:] = 0.0
     if last < 3:
-        i = min(int(place), last - 1)
-        s = place - i
-        return flow[i, 0] + s * (flow[i + 1, 0] - flow[i, 0]), flow[i, 1] + s * (flow[i + 1, 1] - flow[i, 1])
-    i = min(max(int(place), 1), last - 2)
-    s = place - i
-    a, b = -s * (s - 1.0) * (s - 2.0) / 6.0, (s + 1.0) * (s - 1.0) * (s - 2.0) / 2.0
-    c, d = -(s + 1.0) * s * (s - 2.0) / 2.0, (s + 1.0) * s * (s - 1.0) / 6.0
-    return (
-        a * flow[i - 1, 0] + b * flow[i, 0] + c * flow[i + 1, 0] + d * flow[i + 2, 0],
-        a * flow[i - 1, 1] + b * flow[i, 1] + c * flow[i + 1, 1] + d * flow[i + 2, 1],
-    )
+        i = min(n, last - 1)
+        for column in range(2):
+            out[4 * column], out[4 * column + 1] = flow[i, column], flow[i + 1, column] - flow[i, column]
+        return float(n - i)
+    i = min(max(n, 1), last - 2)
+    for column in range(2):
+        a, b, c, d = flow[i - 1, column], flow[i, column], flow[i + 1, column], flow[i + 2, column]
+        first = 4 * column
+        out[first] = b
+        out[first + 1] = c - a / 3.0 - b / 2.0 - d / 6.0
+        out[first + 2] = 0.5 * (a + c) - b
+        out[first + 3] = (d - a) / 6.0 + 0.5 * (b - c)
+    return float(n - i)
 
 
 @njit(cache=True, error_model="numpy")
-def load_table(span: float, span_ratio: float, taut: float, stiffness: float, out: Array) -> None:
-    """Fill ``out`` (n, 5): displacement (given), load, its slope, tension, its slope.
+def load_table(span: float, span_ratio: float, taut: float, stiffness: float, reach: float, out: Array) -> None:
+    """Fill ``out`` (n, 9): a displacement, and cubics of the load and of the tension beyond it up to the next one.
 
-    The rows are evenly spaced in the square of their number. Small displacements are resolved finely: the load of a
-    cable as long as its span starts as a cube.
+    The displacements, from zero to ``reach``, are evenly spaced in the square of their number. Small ones are resolved
+    finely: the load of a cable as long as its span starts as a cube. Cubics meet load, tension and their slopes.
     """
-    b = taut
-    for i in range(out.shape[0]):
-        sag = sag_ratio(taut) + 2.0 * out[i, 0] / span
+    b, last = taut, out.shape[0]
+    ends = np.zeros((2, 5))
+    for i in range(last + 1):
+        ends[0] = ends[1]
+        place = reach * (i / last) ** 2
+        sag = sag_ratio(taut) + 2.0 * place / span
         b = shape_of_sag(sag, b) if sag > 0.0 else 0.0
         tension = stiffness * span_ratio * (sinh_excess(b) - sinh_excess(taut))
         # d excess/db = (cosh b - 1 - excess)/b = (cosh b - sinh(b)/b)/b
         widening = (math.cosh(b) - 1.0 - sinh_excess(b)) / b if b > 1e-4 else b / 3.0
         # the displacement grows with b by half the span times the slope of the sag
         per_shape, stretching = _sag_slope(b) * 0.5 * span, stiffness * span_ratio * widening
-        out[i, 1], out[i, 2] = tension * 2.0 * b / span, (stretching * b + tension) * 2.0 / span / per_shape
-        out[i, 3], out[i, 4] = tension, stretching / per_shape
+        ends[1, 0] = place
+        ends[1, 1], ends[1, 2] = tension * 2.0 * b / span, (stretching * b + tension) * 2.0 / span / per_shape
+        ends[1, 3], ends[1, 4] = tension, stretching / per_shape
+        if i == 0:
+            continue
+        out[i - 1, 0] = ends[0, 0]
+        width = place - ends[0, 0]
+        for column in (1, 3):
+            rise = (ends[1, column] - ends[0, column]) / width
+            low, high = ends[0, column + 1], ends[1, column + 1]
+            first = 1 if column == 1 else 5
+            out[i - 1, first], out[i - 1, first + 1] = ends[0, column], low
+            out[i - 1, first + 2], out[i - 1, first + 3] = (
+                (3.0 * rise - 2.0 * low - high) / width, (low + high - 2.0 * rise) / width**2,
+            )  # fmt: skip
 
 
 @njit(cache=True, error_model="numpy")
-def _of_cable(displacement: float, cable: Array, table: Array, column: int) -> float:
-    """Load (column 1) or tension (column 3) by cubics between the rows of the table, exactly beyond it."""
+def _of_cable(displacement: float, cable: Array, table: Array, first: int) -> float:
+    """Load (``first`` 1) or tension (5) by the cubics of the table, exactly beyond it."""
     if displacement <= 0.0:
         return 0.0
-    last = table.shape[0] - 1
-    if displacement >= table[last, 0]:
+    reach, last = cable[5], table.shape[0]
+    if displacement >= reach:
         load, tension = spring(displacement, cable[0], cable[1], cable[2], cable[3])
-        return load if column == 1 else tension
-    i = min(int(math.sqrt(displacement / table[last, 0]) * last), last - 1)
-    if displacement < table[i, 0]:
-        i -= 1
-    elif displacement > table[i + 1, 0]:
-        i += 1
-    width = table[i + 1, 0] - table[i, 0]
-    s = (displacement - table[i, 0]) / width
-    far = 1.0 - s
-    return far * far * ((1.0 + 2.0 * s) * table[i, column] + s * width * table[i, column + 1]) + s * s * (
-        (3.0 - 2.0 * s) * table[i + 1, column] - far * width * table[i + 1, column + 1]
-    )
+        return load if first == 1 else tension
+    i = min(int(math.sqrt(displacement * cable[7]) * last), last - 1)
+    x = displacement - table[i, 0]
+    return table[i, first] + x * (table[i, first + 1] + x * (table[i, first + 2] + x * table[i, first + 3]))
 
 
 @njit(cache=True, error_model="numpy")
 def _swing(
-    y: float,
-    v: float,
-    at: float,
-    h: float,
-    side: int,
-    cable: Array,
-    table: Array,
-    drag: float,
-    mass: float,
-    flow: Array,
-    step: float,
-) -> tuple[float, float]:
-    """One Runge-Kutta step of h seconds from time ``at``, the cable taut on ``side`` or slack (0)."""
+    y: float, v: float, at: float, h: float, side: int, cable: Array, table: Array, drag: float, flow: Array,
+    per_step: float,
+) -> tuple[float, float]:  # fmt: skip
+    """One Runge-Kutta step of h seconds from place ``at`` of the flow's cubics, taut on ``side`` or slack (0).
+
+    ``drag`` is over the mass that moves, ``per_step`` one over the step of the flow.
+    """
     place, speed, sum_y, sum_v = y, v, 0.0, 0.0
+    half, sense = 0.5 * h, float(side)
     for stage in range(4):
         if stage != 2:
             # the two stages in the middle share their flow
-            share = 0.0 if stage == 0 else 0.5 if stage == 1 else 1.0
-            water, forward = _flow_at(flow, (at + share * h) / step)
+            s = at + (0.0 if stage == 0 else half if stage == 1 else h) * per_step
+            water = flow[0] + s * (flow[1] + s * (flow[2] + s * flow[3]))
+            forward = flow[4] + s * (flow[5] + s * (flow[6] + s * flow[7]))
         relative = water - speed
-        force = drag * relative * abs(relative)
+        rate = forward + drag * relative * abs(relative)
         if side != 0:
-            force -= side * _of_cable(side * place - cable[4], cable, table, 1)
-        rate = forward + force / mass
+            rate -= sense * _of_cable(sense * place - cable[4], cable, table, 1) * cable[6]
         weight = 1.0 if stage in (0, 3) else 2.0
         sum_y += weight * speed
         sum_v += weight * rate
-        ahead = h if stage == 2 else 0.5 * h
+        ahead = h if stage == 2 else half
         place, speed = y + ahead * speed, v + ahead * rate
-    return y + h * sum_y / 6.0, v + h * sum_v / 6.0
+    third = half / 3.0
+    return y + third * sum_y, v + third * sum_v
 
 
 @njit(cache=True, error_model="numpy")
 def _locate(
-    y: float,
-    v: float,
-    at: float,
-    low: float,
-    high: float,
-    target: int,
-    side: int,
-    cable: Array,
-    table: Array,
-    drag: float,
-    mass: float,
-    flow: Array,
-    step: float,
-) -> float:
+    y: float, v: float, at: float, low: float, high: float, target: int, side: int, cable: Array, table: Array,
+    drag: float, flow: Array, per_step: float,
+) -> float:  # fmt: skip
     """Return the h within (low, high) at which y reaches ``target`` times the slack sag, or v = 0 for ``target`` 0."""
     first = v if target == 0 else target * y - cable[4]
     if low > 0.0:
-        y1, v1 = _swing(y, v, at, low, side, cable, table, drag, mass, flow, step)
+        y1, v1 = _swing(y, v, at, low, side, cable, table, drag, flow, per_step)
         first = v1 if target == 0 else target * y1 - cable[4]
-    y1, v1 = _swing(y, v, at, high, side, cable, table, drag, mass, flow, step)
+    y1, v1 = _swing(y, v, at, high, side, cable, table, drag, flow, per_step)
     last = v1 if target == 0 else target * y1 - cable[4]
     rising = last > first
     h, before, kept = high, 0.0, 0
     if last != first:
         h = min(max(low - first * (high - low) / (last - first), low), high)
     for _ in range(100):
-        y1, v1 = _swing(y, v, at, h, side, cable, table, drag, mass, flow, step)
+        y1, v1 = _swing(y, v, at, h, side, cable, table, drag, flow, per_step)
         value = v1 if target == 0 else target * y1 - cable[4]
         moved = abs(h - before)
         before = h
@@ -410,7 +409,7 @@ def _locate(
             low, first = h, value
             last = 0.5 * last if kept < 0 else last
             kept = -1
-        if min(high - low, moved) <= 1e-13 * step or value == 0.0:
+        if min(high - low, moved) * per_step <= 1e-13 or value == 0.0:
             break
         new = low - first * (high - low) / (last - first)
         h = new if low < new < high else 0.5 * (low + high)
@@ -421,7 +420,6 @@ def _locate(
 def slack_taut(
     cable: Array,
     table: Array,
-    mass: float,
     drag: float,
     flow: Array,
     step: float,
@@ -434,11 +432,12 @@ def slack_taut(
     Slack, a step of the classical Runge-Kutta scheme covers the samples of the flow; taut, it is at most
     ``taut_step``. Steps end where the cable becomes taut or slack, so that no step crosses the corner of the spring.
 
-    ``cable``: span, span ratio, taut shape, stiffness, slack sag; ``table``: see :func:`load_table`; ``flow``
-    (n + 1, 2): velocity and acceleration of the water at every step; ``drag`` is rho C_D d / 2. Rows of ``out``
-    (n + 1, 3): position and speed of mid-span, tension; the first row holds the start. Rows of ``contacts``: begin,
-    speed there, end (NaN where the series ends before), time of the peak, tension of the peak, side. Returns the
-    number of contacts that begin, which may be more than there is room for.
+    ``cable``: span, span ratio, taut shape, stiffness, slack sag, reach of the table, one over the mass and over the
+    reach; ``table``: see :func:`load_table`; ``drag`` is rho C_D d / 2 over the mass; ``flow`` (n + 1, 2): velocity and
+    acceleration of the water at every step. Rows of ``out`` (n + 1, 3): position and speed of mid-span, tension; the
+    first row holds the start. Rows of ``contacts``: begin, speed there, end (NaN where the series ends before), time of
+    the peak, tension of the peak, side. Returns the number of contacts that begin, which may be more than there is room
+    for.
     """
     loose = cable[4]
     y, v = out[0, 0], out[0, 1]
@@ -447,21 +446,24 @@ def slack_taut(
         side = 1 if y > 0.0 else -1
     count, current = 0, -1
     furthest, when = 0.0, 0.0
+    cubics, per_step = np.empty(8), 1.0 / step
     for n in range(out.shape[0]):
         out[n, 0], out[n, 1] = y, v
-        out[n, 2] = _of_cable(abs(y) - loose, cable, table, 3) if side != 0 else 0.0
+        out[n, 2] = _of_cable(abs(y) - loose, cable, table, 5) if side != 0 else 0.0
         if n + 1 == out.shape[0]:
             break
-        done = 0.0
+        done, begin = 0.0, _cubics_of_flow(flow, n, cubics)
         while done < step * (1.0 - 1e-12):
-            at = n * step + done
+            at, now = begin + done * per_step, n * step + done
             left = step - done
             h = left if side == 0 else left / math.ceil(left / taut_step - 1e-9)
-            y1, v1 = _swing(y, v, at, h, side, cable, table, drag, mass, flow, step)
+            y1, v1 = _swing(y, v, at, h, side, cable, table, drag, cubics, per_step)
             turned = 0.0
-            if v * v1 < 0.0:
-                turned = _locate(y, v, at, 0.0, h, 0, side, cable, table, drag, mass, flow, step)
-                top, _ = _swing(y, v, at, turned, side, cable, table, drag, mass, flow, step)
+            # slack, a turn far from the cable hides no contact
+            near = side != 0 or abs(y) + 2.0 * h * (abs(v) + abs(v1)) > loose
+            if v * v1 < 0.0 and near:
+                turned = _locate(y, v, at, 0.0, h, 0, side, cable, table, drag, cubics, per_step)
+                top, _ = _swing(y, v, at, turned, side, cable, table, drag, cubics, per_step)
                 if side == 0:
                     if abs(y1) <= loose < abs(top):
                         # a short contact would hide between two samples
@@ -469,27 +471,27 @@ def slack_taut(
                     if abs(top) > loose:
                         turned = 0.0
                 elif side * top > furthest:
-                    furthest, when = side * top, at + turned
+                    furthest, when = side * top, now + turned
             if side == 0:
                 if abs(y1) > loose:
                     toward = 1 if y1 > 0.0 else -1
-                    h = _locate(y, v, at, turned, h, toward, 0, cable, table, drag, mass, flow, step)
-                    _, v1 = _swing(y, v, at, h, 0, cable, table, drag, mass, flow, step)
+                    h = _locate(y, v, at, turned, h, toward, 0, cable, table, drag, cubics, per_step)
+                    _, v1 = _swing(y, v, at, h, 0, cable, table, drag, cubics, per_step)
                     y1, side = toward * loose, toward
-                    furthest, when, current = loose, at + h, count
+                    furthest, when, current = loose, now + h, count
                     if count < contacts.shape[0]:
-                        contacts[count, 0], contacts[count, 1], contacts[count, 2] = at + h, v1, np.nan
+                        contacts[count, 0], contacts[count, 1], contacts[count, 2] = now + h, v1, np.nan
                         contacts[count, 5] = side
                     count += 1
             else:
                 if side * y1 < loose:
-                    h = _locate(y, v, at, turned, h, side, side, cable, table, drag, mass, flow, step)
-                    _, v1 = _swing(y, v, at, h, side, cable, table, drag, mass, flow, step)
+                    h = _locate(y, v, at, turned, h, side, side, cable, table, drag, cubics, per_step)
+                    _, v1 = _swing(y, v, at, h, side, cable, table, drag, cubics, per_step)
                     if 0 <= current < contacts.shape[0]:
-                        contacts[current, 2] = at + h
+                        contacts[current, 2] = now + h
                     y1, side = side * loose, 0
                 elif side * y1 > furthest:
-                    furthest, when = side * y1, at + h
+                    furthest, when = side * y1, now + h
                 if 0 <= current < contacts.shape[0]:
                     contacts[current, 3], contacts[current, 4] = when, furthest - loose
             y, v = y1, v1
