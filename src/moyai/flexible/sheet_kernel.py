@@ -98,57 +98,34 @@ def tensile_stress(C: Any, t: int, e11: float, e22: float, shear: float) -> tupl
 
 
 @njit(cache=True, error_model="numpy")
-def _strain(C: Any, t: int, p: Any, q: Any, damping: float) -> tuple[float, float, float]:
-    """Return Green's strain E11, E22, 2 E12 from the two edges ``p`` (6), with ``damping`` times its rate (``q``)."""
+def _strain_of_edges(
+    C: Any, t: int, p0: float, p1: float, p2: float, r0: float, r1: float, r2: float, u0: float, u1: float, u2: float,
+    w0: float, w1: float, w2: float, damping: float,
+) -> tuple[float, float, float]:  # fmt: skip
+    """Return Green's strain E11, E22, 2 E12 from two edges p, r, with ``damping`` times its rate from their rates u, w.
+
+    Numbers by themselves stay in the registers of a processor, arrays do not.
+    """
     a, b, c, d = C[t, E11], C[t, E12], C[t, E21], C[t, E22]
-    f11, f22, f12 = 0.0, 0.0, 0.0
-    g11, g22, g12 = 0.0, 0.0, 0.0
-    for k in range(3):
-        one, two = p[k] * a + p[3 + k] * c, p[k] * b + p[3 + k] * d
-        f11 += one * one
-        f22 += two * two
-        f12 += one * two
-        if damping > 0.0:
-            fast, faster = q[k] * a + q[3 + k] * c, q[k] * b + q[3 + k] * d
-            g11 += one * fast
-            g22 += two * faster
-            g12 += one * faster + two * fast
-    return 0.5 * (f11 - 1.0) + damping * g11, 0.5 * (f22 - 1.0) + damping * g22, f12 + damping * g12
+    f0, f1, f2 = p0 * a + r0 * c, p1 * a + r1 * c, p2 * a + r2 * c
+    s0, s1, s2 = p0 * b + r0 * d, p1 * b + r1 * d, p2 * b + r2 * d
+    e11, e22 = 0.5 * (f0 * f0 + f1 * f1 + f2 * f2 - 1.0), 0.5 * (s0 * s0 + s1 * s1 + s2 * s2 - 1.0)
+    shear = f0 * s0 + f1 * s1 + f2 * s2
+    if damping > 0.0:
+        g0, g1, g2 = u0 * a + w0 * c, u1 * a + w1 * c, u2 * a + w2 * c
+        h0, h1, h2 = u0 * b + w0 * d, u1 * b + w1 * d, u2 * b + w2 * d
+        e11 += damping * (f0 * g0 + f1 * g1 + f2 * g2)
+        e22 += damping * (s0 * h0 + s1 * h1 + s2 * h2)
+        shear += damping * (f0 * h0 + s0 * g0 + (f1 * h1 + s1 * g1) + (f2 * h2 + s2 * g2))
+    return e11, e22, shear
 
 
 @njit(cache=True, error_model="numpy")
-def triangle_force(C: Any, t: int, p: Any, q: Any, force: Any) -> tuple[float, int]:
-    """Write the forces (9: three nodes by three axes) of one triangle; return its highest principal pull and state.
-
-    Parameters
-    ----------
-    C, t : ndarray, int
-        Constants and number of the triangle.
-    p, q : ndarray, shape (6,)
-        The two edges from its first node to the others and their rates [m], [m/s].
-    force : ndarray, shape (9,)
-        Of stress and pressure [N].
-    """
-    damping = C[t, DAMPING]
-    e11, e22, shear = _strain(C, t, p, q, damping)
-    s11, s22, s12, _, state = tensile_stress(C, t, e11, e22, shear)
-    a, b, c, d = C[t, E11], C[t, E12], C[t, E21], C[t, E22]
-    area = C[t, AREA]
-    for k in range(3):
-        one, two = p[k] * a + p[3 + k] * c, p[k] * b + p[3 + k] * d
-        along, across = area * (one * s11 + two * s12), area * (one * s12 + two * s22)
-        force[3 + k] = -(along * a + across * b)
-        force[6 + k] = -(along * c + across * d)
-        force[k] = -(force[3 + k] + force[6 + k])
-    if C[t, PRESSURE] != 0.0:
-        push = C[t, PRESSURE] / 6.0
-        for k in range(3):
-            m, n = (k + 1) % 3, (k + 2) % 3
-            out = push * (p[m] * p[3 + n] - p[n] * p[3 + m])
-            for node in range(3):
-                force[3 * node + k] += out
-    mean, half = 0.5 * (s11 + s22), 0.5 * (s11 - s22)
-    return mean + math.sqrt(half * half + s12 * s12), state
+def _strain(C: Any, t: int, p: Any, q: Any, damping: float) -> tuple[float, float, float]:
+    """Do the same from the two edges in one array ``p`` (6), their rates in ``q``."""
+    return _strain_of_edges(
+        C, t, p[0], p[1], p[2], p[3], p[4], p[5], q[0], q[1], q[2], q[3], q[4], q[5], damping
+    )  # fmt: skip
 
 
 @njit(cache=True, error_model="numpy")
@@ -156,20 +133,51 @@ def sheet_forces(
     C: Any, triangles: Any, P: Any, p0: int, V: Any, v0: int, F: Any, f0: int, node: int, axis: int, peak: Any
 ) -> None:  # fmt: skip
     """Add the forces of all triangles to ``F``; keep the highest principal pull of each in ``peak`` [N/m]."""
-    p, q, force = np.empty(6), np.empty(6), np.empty(9)
+    up = 2 * axis
     for t in range(triangles.shape[0]):
         i, j, k = triangles[t, 0] * node, triangles[t, 1] * node, triangles[t, 2] * node
-        for a in range(3):
-            step = a * axis
-            p[a], p[3 + a] = P[p0 + j + step] - P[p0 + i + step], P[p0 + k + step] - P[p0 + i + step]
-            q[a], q[3 + a] = V[v0 + j + step] - V[v0 + i + step], V[v0 + k + step] - V[v0 + i + step]
-        pull, _ = triangle_force(C, t, p, q, force)
-        peak[t] = max(peak[t], pull)
-        for a in range(3):
-            step = f0 + a * axis
-            F[i + step] += force[a]
-            F[j + step] += force[3 + a]
-            F[k + step] += force[6 + a]
+        x, y, z = P[p0 + i], P[p0 + i + axis], P[p0 + i + up]
+        px, py, pz = P[p0 + j] - x, P[p0 + j + axis] - y, P[p0 + j + up] - z
+        rx, ry, rz = P[p0 + k] - x, P[p0 + k + axis] - y, P[p0 + k + up] - z
+        x, y, z = V[v0 + i], V[v0 + i + axis], V[v0 + i + up]
+        ux, uy, uz = V[v0 + j] - x, V[v0 + j + axis] - y, V[v0 + j + up] - z
+        wx, wy, wz = V[v0 + k] - x, V[v0 + k + axis] - y, V[v0 + k + up] - z
+        e11, e22, shear = _strain_of_edges(
+            C, t, px, py, pz, rx, ry, rz, ux, uy, uz, wx, wy, wz, C[t, DAMPING]
+        )  # fmt: skip
+        s11, s22, s12, _, _ = tensile_stress(C, t, e11, e22, shear)
+        a, b, c, d, area = C[t, E11], C[t, E12], C[t, E21], C[t, E22], C[t, AREA]
+        gx, hx = _on_corners(px, rx, a, b, c, d, area, s11, s22, s12)
+        gy, hy = _on_corners(py, ry, a, b, c, d, area, s11, s22, s12)
+        gz, hz = _on_corners(pz, rz, a, b, c, d, area, s11, s22, s12)
+        lx, ly, lz = -(gx + hx), -(gy + hy), -(gz + hz)
+        if C[t, PRESSURE] != 0.0:
+            push = C[t, PRESSURE] / 6.0
+            x, y, z = push * (py * rz - pz * ry), push * (pz * rx - px * rz), push * (px * ry - py * rx)
+            lx, ly, lz, gx, gy, gz, hx, hy, hz = (
+                lx + x, ly + y, lz + z, gx + x, gy + y, gz + z, hx + x, hy + y, hz + z
+            )  # fmt: skip
+        mean, half = 0.5 * (s11 + s22), 0.5 * (s11 - s22)
+        peak[t] = max(peak[t], mean + math.sqrt(half * half + s12 * s12))
+        F[f0 + i] += lx
+        F[f0 + i + axis] += ly
+        F[f0 + i + up] += lz
+        F[f0 + j] += gx
+        F[f0 + j + axis] += gy
+        F[f0 + j + up] += gz
+        F[f0 + k] += hx
+        F[f0 + k + axis] += hy
+        F[f0 + k + up] += hz
+
+
+@njit(cache=True, error_model="numpy")
+def _on_corners(
+    p: float, r: float, a: float, b: float, c: float, d: float, area: float, s11: float, s22: float, s12: float
+) -> tuple[float, float]:  # fmt: skip
+    """Return what the stress does at the second and the third corner along an axis, from the edges along it [N]."""
+    one, two = p * a + r * c, p * b + r * d
+    along, across = area * (one * s11 + two * s12), area * (one * s12 + two * s22)
+    return -(along * a + across * b), -(along * c + across * d)
 
 
 @njit(cache=True, error_model="numpy")

@@ -150,9 +150,10 @@ def solve_equilibrium(
 
 
 def nearby_equilibrium(
-    network: Network, flow: Flow, starts: Sequence[State], *, tolerance: float, most_steps: int
-) -> Equilibrium | None:
-    """Return the equilibrium near a state by Newton's method, ``None`` where a few steps find none: for drafts.
+    network: Network, flow: Flow, starts: Sequence[State], *, tolerance: float, most_steps: int,
+    soft: float = _NEAR_SOFT,
+) -> Equilibrium | None:  # fmt: skip
+    """Return the equilibrium near a state by Newton's method, ``None`` where a few steps find none.
 
     Parameters
     ----------
@@ -165,13 +166,15 @@ def nearby_equilibrium(
         Force left over the largest force at work.
     most_steps : int
         Solves.
+    soft : float
+        First rounding of what only pulls or pushes, over the largest load: little, where the start is near.
     """
     network = at_rest(network)
     problem = Relaxation(network, flow, math.inf)
     fixed = network.nodes.kind != 0
     places = [np.where(fixed[:, None], network.nodes.position, start.position) for start in starts]
     place = places[0] if len(places) == 1 else min(places, key=lambda one: problem.look(one).residual)
-    found = problem.attempt(place, turn=1.0, most=most_steps, tolerance=tolerance, soft=_NEAR_SOFT)
+    found = problem.attempt(place, turn=1.0, most=most_steps, tolerance=tolerance, soft=soft)
     if not found.converged:
         return None
     problem.forces(found.place)

@@ -27,8 +27,11 @@ from moyai.structures.cage.flexible.wake import sheltered
 TOLERANCE, SETTLE_ABOVE = 1e-4, 1e-3
 #: The same before Newton's method is asked, and how far it may lead away from there, over the size of a cage.
 LEAD, ASTRAY = 1e-3, 0.05
-#: Steps that Newton's method gets; it takes 10 to 50 where it finds an equilibrium.
-NEWTON_STEPS = 100
+#: First rounding of what only pulls, over the largest load, that Newton's method begins with there, and its steps;
+#: where they fail, those that it gets with large rounding, of which it takes 10 to 50 where it finds an equilibrium.
+LED_SOFT, LED_STEPS, NEWTON_STEPS = 1e-3, 20, 100
+#: Residual of Newton's method.
+FINE = 1e-9
 #: The same from the rest of a cage that differs little.
 NEAR_STEPS = 32
 #: Time of that motion over the square root of size over gravity.
@@ -137,12 +140,19 @@ def solve_cage_equilibrium(
 
 def _newton(model: FlexibleCage, network: Network, flow: Flow, start: State) -> Equilibrium | None:
     """Return the rest near a state by Newton's method, ``None`` where it finds none or another one."""
+
+    def is_near(found: Equilibrium) -> bool:
+        away = np.linalg.norm(found.state.position - start.position, axis=1)
+        return float(away.max()) < ASTRAY * max(model.design.size, model.spacing)
+
+    led = nearby_equilibrium(network, flow, [start], tolerance=FINE, most_steps=LED_STEPS, soft=LED_SOFT)
+    if led is not None and is_near(led):
+        return led
     try:
-        found = solve_equilibrium(network, flow=flow, start=start, most_steps=NEWTON_STEPS)
+        found = solve_equilibrium(network, flow=flow, start=start, tolerance=FINE, most_steps=NEWTON_STEPS)
     except ConvergenceError:
         return None
-    away = np.linalg.norm(found.state.position - start.position, axis=1)
-    return found if float(away.max()) < ASTRAY * max(model.design.size, model.spacing) else None
+    return found if is_near(found) else None
 
 
 def collar_forces(
