@@ -417,20 +417,38 @@ def _locate(
 
 
 @njit(cache=True, error_model="numpy")
-def slack_taut(
-    cable: Array,
-    table: Array,
-    drag: float,
-    flow: Array,
-    step: float,
+def _over_two_samples(
+    y: float, v: float, at: float, side: int, cable: Array, table: Array, drag: float, flow: Array, step: float,
     taut_step: float,
-    out: Array,
-    contacts: Array,
-) -> int:
+) -> tuple[float, float, bool]:  # fmt: skip
+    """Return place and speed two samples on by one step, and whether it stays far from any contact or turn."""
+    h, loose = 2.0 * step, cable[4]
+    if side != 0 and h > taut_step:
+        return y, v, False
+    y2, v2 = _swing(y, v, at, h, side, cable, table, drag, flow, 1.0 / step)
+    if side == 0:
+        return y2, v2, abs(y) + 2.0 * h * (abs(v) + abs(v2)) < loose
+    return y2, v2, side * y2 > loose and v * v2 > 0.0
+
+
+@njit(cache=True, error_model="numpy")
+def _write_between(
+    y: float, v: float, y2: float, v2: float, step: float, side: int, cable: Array, table: Array, row: Array
+) -> None:  # fmt: skip
+    """Write the row of the sample between two others, by the cubic through their places and speeds."""
+    row[0], row[1] = 0.5 * (y + y2) + 0.25 * step * (v - v2), 0.75 * (y2 - y) / step - 0.25 * (v + v2)
+    row[2] = _of_cable(abs(row[0]) - cable[4], cable, table, 5) if side != 0 else 0.0
+
+
+@njit(cache=True, error_model="numpy")
+def slack_taut(
+    cable: Array, table: Array, drag: float, flow: Array, step: float, taut_step: float, out: Array, contacts: Array
+) -> int:  # fmt: skip
     """March the slack and taut curtain, every contact located in time [eq:impact-slack-taut].
 
-    Slack, a step of the classical Runge-Kutta scheme covers the samples of the flow; taut, it is at most
-    ``taut_step``. Steps end where the cable becomes taut or slack, so that no step crosses the corner of the spring.
+    A step of the classical Runge-Kutta scheme covers two samples of the flow far from contacts and turns, else one;
+    taut, it is at most ``taut_step``. Steps end where the cable becomes taut or slack, so that no step crosses the
+    corner of the spring.
 
     ``cable``: span, span ratio, taut shape, stiffness, slack sag, reach of the table, one over the mass and over the
     reach; ``table``: see :func:`load_table`; ``drag`` is rho C_D d / 2 over the mass; ``flow`` (n + 1, 2): velocity and
@@ -447,12 +465,26 @@ def slack_taut(
     count, current = 0, -1
     furthest, when = 0.0, 0.0
     cubics, per_step = np.empty(8), 1.0 / step
+    skipped = False
     for n in range(out.shape[0]):
+        if skipped:
+            skipped = False
+            continue
         out[n, 0], out[n, 1] = y, v
         out[n, 2] = _of_cable(abs(y) - loose, cable, table, 5) if side != 0 else 0.0
         if n + 1 == out.shape[0]:
             break
         done, begin = 0.0, _cubics_of_flow(flow, n, cubics)
+        if n + 2 < out.shape[0]:
+            y2, v2, skipped = _over_two_samples(y, v, begin, side, cable, table, drag, cubics, step, taut_step)
+            if skipped:
+                _write_between(y, v, y2, v2, step, side, cable, table, out[n + 1])
+                y, v = y2, v2
+                if side != 0 and side * y > furthest:
+                    furthest, when = side * y, (n + 2) * step
+                    if 0 <= current < contacts.shape[0]:
+                        contacts[current, 3], contacts[current, 4] = when, furthest - loose
+                continue
         while done < step * (1.0 - 1e-12):
             at, now = begin + done * per_step, n * step + done
             left = step - done
