@@ -101,6 +101,12 @@ class Flow:
                 f"interval of the flow is {self.interval:g} s", parameter="flow.interval", allowed="greater than 0"
             )
         stretching_code(self.stretching)
+        # what holds at every height is found once
+        same = None if self.current is None else getattr(self.current, "everywhere", None)
+        everywhere = given.copy()
+        if same is not None:
+            everywhere[:2] += same
+        object.__setattr__(self, "_everywhere", everywhere if self.current is None or same is not None else None)
 
     @property
     def steady(self) -> bool:
@@ -156,6 +162,9 @@ class Flow:
         ndarray (3, n)
             Site axes [m/s].
         """
+        everywhere: Array | None = self.__dict__["_everywhere"]
+        if everywhere is not None:
+            return np.repeat(everywhere[:, None], position.shape[1], axis=1)
         out = np.repeat(np.asarray(self.velocity)[:, None], position.shape[1], axis=1)
         if self.current is not None:
             depth = self.waves.water.depth if self.waves is not None and self.waves.water is not None else math.inf
@@ -191,9 +200,14 @@ class Flow:
             if self.wave_ramp > 0.0 and time < self.wave_ramp:
                 angle = math.pi * max(time, 0.0) / self.wave_ramp
                 swell, pace = 0.5 * (1.0 - math.cos(angle)), 0.5 * math.pi / self.wave_ramp * math.sin(angle)
-            out[:3] += swell * velocity.T
-            out[3:6] += swell * acceleration.T + pace * velocity.T
-            out[6] = swell * elevation
+            if swell == 1.0:
+                out[:3] += velocity.T
+                out[3:6] += acceleration.T
+                out[6] = elevation
+            else:
+                out[:3] += swell * velocity.T
+                out[3:6] += swell * acceleration.T + pace * velocity.T
+                out[6] = swell * elevation
         if grown < 1.0:
             out[3:6] = grown * out[3:6] + rate * out[:3]
             out[:3] *= grown

@@ -35,6 +35,11 @@ class CurrentProfile(ABC):
             Heights above still water [m].
         """
 
+    @property
+    def everywhere(self) -> Array | None:
+        """The velocity (x, y) that holds at every height [m/s], ``None`` where it varies."""
+        return None
+
     @abstractmethod
     def _breaks(self, z_bottom: float, z_top: float) -> Array:
         """Return the limits and the heights between which the profile is smooth."""
@@ -169,8 +174,12 @@ class UniformCurrent(CurrentProfile):
         z : array_like (...)
             Heights above still water [m]; only their shape counts.
         """
-        direction = self.current_speed * np.array([math.cos(self.heading), math.sin(self.heading)])
-        return np.broadcast_to(direction, (*np.shape(z), 2)).copy()
+        return np.broadcast_to(self.everywhere, (*np.shape(z), 2)).copy()
+
+    @property
+    def everywhere(self) -> Array:
+        """The velocity (x, y) at every height [m/s]."""
+        return self.current_speed * np.array([math.cos(self.heading), math.sin(self.heading)])
 
     def _breaks(self, z_bottom: float, z_top: float) -> Array:
         return np.array([z_bottom, z_top])

@@ -71,6 +71,11 @@ class _CurrentAtAnyHeight:
         """Return the velocity (..., 2) at heights z, of the nearest end beyond the ends."""
         return np.asarray(self.profile.velocity(np.clip(z, -self.depth, 0.0)))
 
+    @property
+    def everywhere(self) -> NDArray[np.float64] | None:
+        """The velocity (x, y) that holds at every height [m/s], ``None`` where it varies."""
+        return self.profile.everywhere
+
 
 def steady_flow(problem: NetworkProblem, water: Water) -> Flow:
     """Return the current alone."""

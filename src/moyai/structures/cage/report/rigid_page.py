@@ -104,9 +104,9 @@ def _motions(level: CageLevel) -> list[Block | None]:
 
 def _tensions(level: CageLevel) -> list[Block | None]:
     return [
-        table(level, sea)
+        block
         for sea in level.part("waves").children()
-        for table in (tables.tension_table, tables.largest_of_realisations)
+        for block in (tables.tension_table(level, sea), *tables.realisations_blocks(level, sea))
     ]
 
 

@@ -6,10 +6,10 @@ import math
 
 import numpy as np
 
-from moyai.report.document import Column, Table
+from moyai.report.document import Block, Column, Table
 from moyai.report.formatting import display_unit
 from moyai.report.reading import Group
-from moyai.report.realisations import realisations_table
+from moyai.report.realisations import realisations_figure, realisations_table
 from moyai.structures.cage.report.rigid_reading import ENDS, CageLevel, key
 
 _CAGE = (
@@ -233,7 +233,8 @@ def tension_table(level: CageLevel, sea: Group) -> Table | None:
     )
 
 
-def largest_of_realisations(level: CageLevel, sea: Group) -> Table | None:
-    """Return the largest tensions at the cage of the realisations of a sea."""
+def realisations_blocks(level: CageLevel, sea: Group) -> tuple[Block | None, ...]:
+    """Return the largest tensions at the cage of the realisations of a sea, as a table and as a figure."""
     tension = sea.real("line_tension_maximum_of_realisation", "realisation", "line", end=ENDS[0])
-    return realisations_table(key(level, sea.name, "realisations"), sea.name, sea.labels("line"), tension)
+    given = key(level, sea.name, "realisations"), sea.name, sea.labels("line"), tension
+    return realisations_table(*given), realisations_figure(*given)

@@ -9,11 +9,10 @@ from moyai.report.decimate import focus_indices, window_around
 from moyai.report.document import Abscissa, Figure, Mark, Panel, Series
 from moyai.report.encoding import slug
 from moyai.report.reading import Group, common_scale
+from moyai.report.realisations import realisations_figure
 from moyai.structures.network.report.reading import NetworkLevel, peak_of_run, texts
 
 MOST_LINES, MOST_POINTS, WINDOW_PERIODS, BINS = 6, 4, 12.0, 700
-#: Realisations from which their exceedance is drawn.
-LEAST_REALISATIONS = 4
 
 
 def _window(run: Group, time: Array, moment: float) -> tuple[int, int]:
@@ -155,40 +154,11 @@ def exceedance_figure(level: NetworkLevel, run: Group) -> Figure | None:
     )
 
 
-def realisations_figure(level: NetworkLevel, run: Group) -> Figure | None:
+def largest_of_realisations(level: NetworkLevel, run: Group) -> Figure | None:
     """Return the share of the realisations whose highest tension passes a value, with the interval of chance."""
-    from scipy.special import betaincinv
-
     dynamic = level.part("dynamic")
     tension = dynamic.real("line_tension_maximum_of_realisation", "member", "line", run=run.name)
-    known = np.zeros(0, dtype=bool) if tension is None else np.isfinite(tension).all(axis=1)
-    if tension is None or known.sum() < LEAST_REALISATIONS:
-        return None
-    found = np.sort(tension[known], axis=0)[::-1]
-    names, count = dynamic.labels("line"), found.shape[0]
-    order = np.argsort(found.mean(axis=0))[::-1][:MOST_LINES]
-    factor, unit = common_scale("N", found[:, order])
-    rank = np.arange(1, count + 1)
-    series = [
-        Series(names[k], {"tension": factor * found[:, k]}, rank / (count + 1.0), 0, tone, style="line+points")
-        for tone, k in enumerate(order)
-    ]
-    for share in (0.05, 0.95):
-        # the share of all realisations beyond the r-th of n follows a beta law
-        ends = betaincinv(rank, count + 1 - rank, share)
-        label = f"{100.0 * share:g} % end of chance"
-        series.append(
-            Series(label, {"tension": factor * found[:, order[0]]}, ends, 0, 0, dash="dash", faint=True,
-                   belongs_to=names[order[0]])
-        )  # fmt: skip
-    return Figure(
-        slug(level.name, run.name, "realisations"),
-        f"Realisations that pass a highest tension: {run.name}",
-        (Abscissa("tension", "highest tension of the run", unit),),
-        (Panel("part of the realisations", limits=(0.0, 1.0)),),
-        tuple(series),
-        "Weibull positions r / (n + 1); dashed: where 90 of 100 sets of as many realisations put the first line.",
-    )
+    return realisations_figure(slug(level.name, run.name, "realisations"), run.name, dynamic.labels("line"), tension)
 
 
 def energy_figure(level: NetworkLevel, run: Group) -> Figure | None:

@@ -104,7 +104,7 @@ def _of_runs(level: NetworkLevel, governing: HighestTension | None) -> Sequence[
             tables.peaks_table(level, run),
             tables.points_table(level, run),
             tables.largest_of_realisations(level, run),
-            figures.realisations_figure(level, run),
+            figures.largest_of_realisations(level, run),
             figures.exceedance_figure(level, run),
             tables.contact_table(level, run),
             figures.energy_figure(level, run),
