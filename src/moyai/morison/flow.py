@@ -15,8 +15,9 @@ from moyai.sea.components import WaveComponents
 from moyai.sea.kinematics import Stretching, stretching_code, wheeler_elevation
 from moyai.sea.nonlinear import NonlinearWave
 
-#: Nodes of the interpolation over the heights that Wheeler's stretching reaches at one point
-_WHEELER_NODES = 14
+#: Nodes of the interpolation over the heights that Wheeler's stretching reaches at one point, at most, and its error
+#: over the largest acceleration that all components can give there together.
+_WHEELER_NODES, _WHEELER_ERROR = 14, 1e-8
 
 
 @dataclass(frozen=True, eq=False)
@@ -72,7 +73,7 @@ class LinearFlow:
         depth = float(self.components.water.depth)  # type: ignore[union-attr]
         level = np.clip(wheeler_elevation(point[2], elevation, depth), -depth, 0.0)
         low, high = float(level.min()), float(level.max())
-        count = _WHEELER_NODES if high - low > 1e-12 else 1
+        count = self._nodes_over(low, high) if high - low > 1e-12 else 1
         nodes = np.cos(math.pi * (np.arange(count) + 0.5) / count) if count > 1 else np.zeros(1)
         heights = 0.5 * (low + high) + 0.5 * (high - low) * nodes
         x, y = np.full(count, point[0]), np.full(count, point[1])
@@ -81,6 +82,21 @@ class LinearFlow:
         share = np.ones((time.size, 1)) if count == 1 else _lagrange(nodes, (2.0 * level - low - high) / (high - low))
         both = np.einsum("tn,tna->ta", share, values)
         velocity[:], acceleration[:] = both[:, :3], both[:, 3:]
+
+    def _nodes_over(self, low: float, high: float) -> int:
+        """Return how many Chebyshev nodes represent the decay of the waves between two heights [m].
+
+        Those of n nodes err by 2 (q / 2)^n / n! of the exponential of q x, -1 <= x <= 1; q is k times half the range.
+        """
+        sea = self.components
+        number = np.asarray(sea.wave_number)
+        size = sea.amplitude * np.asarray(sea.intrinsic_omega) ** 2 * np.exp(number * high)
+        reach, error = 0.25 * number * (high - low), 2.0 * size
+        for count in range(1, _WHEELER_NODES + 1):
+            error = error * reach / count
+            if float(error.sum()) <= _WHEELER_ERROR * float(size.sum()):
+                return max(count, 2)
+        return _WHEELER_NODES
 
 
 def _lagrange(nodes: Array, at: Array) -> Array:

@@ -17,6 +17,9 @@ _SHORTEST = 8
 #: Cost of a point of a Fourier transform, per factor of two of its length, over that of a component at one time.
 _FOURIER_COST = 3.0
 
+#: Rows whose transforms fill the registers of a processor side by side.
+_TOGETHER = 16
+
 #: Points of transforms that a window takes, over those of its components and times.
 _WINDOW_COST = 6
 
@@ -95,14 +98,16 @@ def _through_fourier(omega: Array, rows: ComplexArray, start: float, steps: int,
         some = rows.any(axis=1)
         out[some] = sum_in_window(number, rows[some] * turn, steps, period).real
         return out
-    wanted = np.arange(steps) % period
-    half = np.zeros(period // 2 + 1, dtype=np.complex128)
-    for row, amplitudes in enumerate(rows):
-        if not amplitudes.any():
-            continue
-        half[:] = 0.0
-        np.add.at(half, number, np.conj(amplitudes * turn) * (0.5 * period))
-        out[row] = np.fft.irfft(half, n=period)[wanted]
+    from scipy.fft import irfft
+
+    wanted = slice(steps) if steps <= period else np.arange(steps) % period
+    known = np.flatnonzero(rows.any(axis=1))
+    for first in range(0, known.size, _TOGETHER):
+        chosen = known[first : first + _TOGETHER]
+        half = np.zeros((chosen.size, period // 2 + 1), dtype=np.complex128)
+        for line, amplitudes in zip(half, np.conj(rows[chosen] * turn) * (0.5 * period), strict=True):
+            np.add.at(line, number, amplitudes)
+        out[chosen] = irfft(half, n=period, axis=1, overwrite_x=True)[:, wanted]
     return out
 
 
