@@ -6,6 +6,7 @@ import math
 
 import numpy as np
 
+from moyai.core.arrays import Array
 from moyai.core.validity import IdentityCheck, Notice
 from moyai.sea.water import Water
 from moyai.structures.cage.rigid.lines import CageLine
@@ -184,23 +185,38 @@ def run_notices(problem: RigidCageProblem, run: RigidCageRun, lines: tuple[CageL
                 remedy="the motion is computed from water speeds at every part, but the wave is taken as undisturbed",
             )
         )
+    roll = float(np.abs(run.march.state[:, 2]).max())
+    return (*found, *limit_notices(wave.name, run.numbers.line_tension_maximum, roll, lines))
+
+
+def limit_notices(name: str, tension: Array, roll: float, lines: tuple[CageLine, ...]) -> tuple[Notice, ...]:
+    """Compare highest tensions (lines, ends) [N] with breaking loads, and the largest rotation [rad] with overturning.
+
+    Parameters
+    ----------
+    name : str
+        Of the wave, or the realisation.
+    tension : ndarray, shape (lines, ends)
+    roll : float
+    lines : tuple of CageLine
+    """
+    found = []
     for n, line in enumerate(lines):
-        highest = float(np.max(run.numbers.line_tension_maximum[n]))
+        highest = float(np.max(tension[n]))
         if line.breaking_load is not None and highest > line.breaking_load:
             found.append(
                 Notice(
                     "cage-line-breaks",
-                    f"{wave.name}: {line.name!r} reaches {highest:.4g} N, its breaking load is "
+                    f"{name}: {line.name!r} reaches {highest:.4g} N, its breaking load is "
                     f"{line.breaking_load:.4g} N",
                     highest, line.breaking_load, "warning", "a stronger line or a softer mooring",
                 )
             )  # fmt: skip
-    roll = float(np.abs(run.march.state[:, 2]).max())
     if roll > math.radians(60.0):
         found.append(
             Notice(
                 "cage-overturns",
-                f"{wave.name}: the cage turns by {math.degrees(roll):.3g} degrees",
+                f"{name}: the cage turns by {math.degrees(roll):.3g} degrees",
                 value=roll,
                 limit=math.radians(60.0),
                 severity="error",

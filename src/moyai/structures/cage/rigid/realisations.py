@@ -14,6 +14,7 @@ from moyai.core.validity import Notice
 from moyai.sea.irregular import realisation_seed
 from moyai.sea.states import IrregularSea
 from moyai.sea.water import Water
+from moyai.structures.cage.rigid.checks import limit_notices
 from moyai.structures.cage.rigid.lines import CageLine
 from moyai.structures.cage.rigid.model import RigidCageProblem
 from moyai.structures.cage.rigid.numbers import Numbers
@@ -100,6 +101,16 @@ def with_realisations(
         ),
     }
     return found.merge(labelled(xr.Dataset(data))).assign_attrs(found.attrs)
+
+
+def notices(others: list[tuple[int, Numbers | None]], lines: tuple[CageLine, ...]) -> list[Notice]:
+    """Return what the further realisations reach beyond limits, and how many were lost."""
+    found = lost(others)
+    for seed, numbers in others:
+        if numbers is not None:
+            roll = max(abs(float(numbers.maximum[2])), abs(float(numbers.minimum[2])))
+            found += limit_notices(f"seed {seed}", numbers.line_tension_maximum, roll, lines)
+    return found
 
 
 def lost(others: list[tuple[int, Numbers | None]]) -> list[Notice]:

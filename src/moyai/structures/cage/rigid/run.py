@@ -33,7 +33,8 @@ from moyai.structures.cage.rigid.lines import CageLine
 from moyai.structures.cage.rigid.model import CageSea, RigidCageProblem, RigidCageWaves
 from moyai.structures.cage.rigid.modes import natural_modes
 from moyai.structures.cage.rigid.pack import pack
-from moyai.structures.cage.rigid.realisations import further_numbers, lost, with_realisations
+from moyai.structures.cage.rigid.realisations import further_numbers, with_realisations
+from moyai.structures.cage.rigid.realisations import notices as realisation_notices
 from moyai.structures.cage.rigid.runs import RigidCageRun, run_wave
 from moyai.structures.cage.rigid.sensitivity import sensitivity_dataset
 from moyai.structures.cage.rigid.setup import at_level, lines_of
@@ -211,7 +212,7 @@ def _sea_steps(
             numbers = with_realisations(own, (sea.seed, runs[0].numbers), others, at_rest)
             collected.groups[f"{root}/waves/{sea.name}"] = numbers
             yield
-        reported.extend(lost(others))
+        reported.extend(realisation_notices(others, lines))
     collected.notices.extend(
         replace(notice, message=f"{sea.name}: {notice.message}") for notice in most_severe(reported)
     )
