@@ -20,7 +20,7 @@ from moyai.sea.states import IrregularSea
 from moyai.structures.cage.rigid.matsubara import VISCOSITY, WATER, model_cage, taut_lines
 from moyai.structures.cage.rigid.model import RigidCageProblem, RigidCageSettings
 from moyai.structures.cage.rigid.pack import pack
-from moyai.structures.cage.rigid.realisations import further_numbers
+from moyai.structures.cage.rigid.realisations import further_realisations
 from moyai.structures.cage.rigid.runs import run_wave
 from moyai.structures.cage.rigid.statics import equilibrium_with_lines
 from moyai.structures.cage.rigid.time import march, march_fixed
@@ -108,9 +108,9 @@ def company(count: int, periods: int) -> dict[str, object]:
     problem = RigidCageProblem("", cage, (), VISCOSITY, Environment(WATER), settings=settings)
     rest = equilibrium_with_lines(cage, lines, WATER, VISCOSITY)
     begin = time.perf_counter()
-    found = dict(further_numbers(problem, lines, rest, WATER, sea))
+    found = list(further_realisations(problem, lines, rest, WATER, sea))
     together = time.perf_counter() - begin
-    seed = next(iter(found))
+    seed = found[0].seed
     (wave,) = waves_of(problem, replace(sea, seed=seed), WATER)
     begin = time.perf_counter()
     alone = run_wave(problem, lines, rest, WATER, wave).numbers
@@ -120,7 +120,7 @@ def company(count: int, periods: int) -> dict[str, object]:
         "seconds": round(together, 2),
         "seconds_of_one_alone": round(single, 2),
         "ratio_to_one_after_the_other": round(count * single / together, 2),
-        "same_numbers": bool(np.array_equal(alone.line_tension_maximum, found[seed].line_tension_maximum)),
+        "same_numbers": bool(np.array_equal(alone.line_tension_maximum, found[0].numbers.line_tension_maximum)),
     }
 
 

@@ -5,6 +5,8 @@ from __future__ import annotations
 from collections.abc import Iterator, Mapping
 from typing import TYPE_CHECKING
 
+import numpy as np
+
 from moyai.core.headline import Headline
 from moyai.core.validity import Notice
 from moyai.sea.validity import check_realised_height
@@ -59,8 +61,8 @@ def condition_headlines(groups: Groups) -> tuple[Headline, ...]:
     return (*_current(groups), *_height(groups))
 
 
-def height_notices(name: str, run: xr.Dataset) -> tuple[Notice, ...]:
-    """Tell of an irregular sea whose record is clearly lower than what was asked.
+def height_notices(name: str, run: xr.Dataset, sea: xr.Dataset | None = None) -> tuple[Notice, ...]:
+    """Tell of an irregular sea whose record, or whose realisations in the mean, are clearly lower than what was asked.
 
     Parameters
     ----------
@@ -68,10 +70,18 @@ def height_notices(name: str, run: xr.Dataset) -> tuple[Notice, ...]:
         Name of the sea state.
     run : xarray.Dataset
         Its series over time.
+    sea : xarray.Dataset, optional
+        Its numbers, which know of realisations.
     """
     if int(run.attrs["regular"]):
         return ()
-    return check_realised_height(name, float(run.attrs["realised_height"]), float(run.attrs["wave_height"]))
+    return check_realised_height(name, _realised(run, sea), float(run.attrs["wave_height"]))
+
+
+def _realised(run: xr.Dataset, sea: xr.Dataset | None) -> float:
+    """Return the realised significant height, its mean over realisations where there are any [m]."""
+    mean = None if sea is None else sea.attrs.get("realised_height")
+    return float(run.attrs["realised_height"] if mean is None else mean)
 
 
 def _current(groups: Groups) -> list[Headline]:
@@ -97,12 +107,17 @@ def _height(groups: Groups) -> list[Headline]:
     seas = [(level, name, run) for level, name, run in runs_of(groups) if not int(run.attrs["regular"])]
     if not seas:
         return []
-    level, name, run = min(seas, key=lambda sea: sea[2].attrs["realised_height"] / sea[2].attrs["wave_height"])
-    realised, asked = float(run.attrs["realised_height"]), float(run.attrs["wave_height"])
+    heights = [_realised(run, groups.get(f"/{level}/waves/{name}")) for level, name, run in seas]
+    worst = int(np.argmin([height / run.attrs["wave_height"] for height, (*_, run) in zip(heights, seas, strict=True)]))
+    level, name, run = seas[worst]
+    realised, asked = heights[worst], float(run.attrs["wave_height"])
     seeds = sorted({int(run.attrs["seed"]) for _, _, run in seas})
-    length = float(run["time"].values[-1]) - float(run.attrs["ramp"])
+    length = max(float(run["time"].values[-1]) - float(run.attrs["ramp"]), 0.0)
     detail = f"{asked:.3g} m asked; {length:.4g} s after the start; seed{'s' if len(seeds) > 1 else ''} "
     detail += ", ".join(map(str, seeds))
+    sea = groups.get(f"/{level}/waves/{name}")
+    if sea is not None and "seed_of_realisation" in sea and len(seeds) == 1:
+        detail += f" and {sea.sizes['realisation'] - 1} more"
     return [
         Headline(
             "realised_height", "realised significant wave height", realised, "m", f"{name}, {level}", detail=detail,

@@ -10,10 +10,9 @@ import numpy as np
 
 from moyai.core.arrays import Array
 from moyai.core.headline import Band, Headline
-from moyai.core.wording import spoken
 from moyai.series.block_maxima import too_short
 from moyai.series.realisations import seeds
-from moyai.structures.cage.bands import FEW_WAVES, alone, chance, laws_text
+from moyai.structures.cage.bands import FEW_WAVES, NO_LAWS, alone, chance, laws_text
 from moyai.structures.cage.conditions import condition_headlines, sea_words
 from moyai.structures.cage.headlines import NOT_JUDGED, Groups, judged_seas
 from moyai.structures.cage.rigid.laws import IN_WAVES
@@ -86,7 +85,7 @@ def _rigid_tension(seas: Seas, groups: Groups) -> list[Headline]:
 
 def _tension_of(level: str, name: str, sea: xr.Dataset, wave: int, line: int, groups: Groups) -> Headline:
     """Return the highest tension of a line in a wave, the mean over realisations, with band and mean at that end."""
-    each = _each_tension(sea, wave)[:, line]
+    each = tensions_of_each(sea, wave)[:, line]
     end = int(np.argmax(each.mean(axis=0)))
     value, run = float(each[:, end].mean()), _run_of(level, name, sea, wave, groups)
     laws = _laws_of(level, name, sea, wave, groups)
@@ -106,7 +105,7 @@ def _rigid_anchor(seas: Seas, groups: Groups) -> list[Headline]:
         if not sea.sizes["line"]:
             continue
         for wave, line in np.ndindex(sea.sizes["wave"], sea.sizes["line"]):
-            each = _each_tension(sea, wave)[:, line]
+            each = tensions_of_each(sea, wave)[:, line]
             pulls = each[:, list(sea["end"].values).index("anchor")]
             title, value = sea["line"].values[line], float(pulls.mean())
             run = _run_of(level, name, sea, wave, groups)
@@ -137,7 +136,7 @@ def _rigid_offset(seas: Seas, groups: Groups) -> list[Headline]:
             continue
         at_rest, offsets = rigid_offsets(groups[f"/{level}/statics"], sea)
         for wave, own in enumerate(offsets):
-            each = sea[_OFFSETS].values if _OFFSETS in sea else np.array([own])
+            each = offsets_of_each(sea, float(own))
             value = float(each.mean())
             run = _run_of(level, name, sea, wave, groups)
             laws = _laws_of(level, name, sea, wave, groups)
@@ -160,11 +159,16 @@ def _laws_of(level: str, name: str, sea: xr.Dataset, wave: int, groups: Groups) 
     return [group for path, group in groups.items() if path.startswith(f"/{level}/{IN_WAVES}/")]
 
 
-def _each_tension(sea: xr.Dataset, wave: int) -> Array:
+def tensions_of_each(sea: xr.Dataset, wave: int) -> Array:
     """Return the highest tension of every realisation, one of a regular wave; (realisations, lines, ends) [N]."""
     if _TENSIONS in sea:
         return np.asarray(sea[_TENSIONS].values)
     return np.asarray(sea["line_tension_maximum"].values[wave : wave + 1])
+
+
+def offsets_of_each(sea: xr.Dataset, own: float) -> Array:
+    """Return the largest offset of every realisation, ``own`` where there is one [m]."""
+    return np.asarray(sea[_OFFSETS].values) if _OFFSETS in sea else np.array([own])
 
 
 def _rigid_band(
@@ -185,13 +189,12 @@ def _rigid_band(
     time = run["time"].values
     short = too_short(time[time >= float(run.attrs["ramp"])], float(run.attrs["period"]))
     few = [FEW_WAVES] if short else []
-    said = "; ".join(filter(None, (_scatter_text(each, "m" if line is None else "N"), said)))
+    deviation = 100.0 * float(each.std(ddof=1)) / max(abs(float(each.mean())), 1e-300)
+    scatter = f"mean of the largest of {each.size} realisations, their standard deviation {deviation:.2g} %"
+    said = "; ".join(filter(None, (scatter, said)))
+    if any(one.sizes["law"] > 1 for one in laws):
+        words.append("what the laws change by the first seed")
     return replace(several.scaled(least, most), of="; ".join([several.of, *few, *words])), said
-
-
-def _scatter_text(each: Array, unit: str) -> str:
-    deviation = spoken(float(each.std(ddof=1)), unit, 2, like=float(each.mean()))
-    return f"mean of the largest of {each.size} realisations, their standard deviation {deviation}"
 
 
 def _laws_of_band(laws: list[xr.Dataset], line: int | None) -> tuple[float, float, list[str], str]:
@@ -205,8 +208,10 @@ def _laws_of_band(laws: list[xr.Dataset], line: int | None) -> tuple[float, floa
             least, most = min(least, float(values.min() / values[0])), max(most, float(values.max() / values[0]))
     if several:
         words.append(laws_text(several[0]))
-    elif laws:
+    elif laws and not any(one.attrs["missing"] for one in laws):
         said = "no second net law is valid for this net"
+    if any(one.attrs["missing"] for one in laws):
+        words.append(NO_LAWS)
     return least, most, words, said
 
 

@@ -70,7 +70,7 @@ def laws_dataset(
     highest, at_rest, offset = known
     peaks, offsets = [np.asarray(highest)], [offset]
 
-    def run_under(law: NetLaw, heard: Progress) -> tuple[Array, float]:
+    def run_under(law: NetLaw, heard: Progress) -> tuple[Array, float] | None:
         other = replace(problem, cage=replace(cage, law=law))
         begin = rest
         if problem.environment.current is not None:
@@ -80,14 +80,19 @@ def laws_dataset(
         found = run_wave(other, lines, begin, water, wave, progress=heard)
         if found.march.status == "interrupted":
             raise KeyboardInterrupt
+        if found.march.status != "converged":
+            return None
         numbers = found.numbers
         highest = numbers.line_tension_maximum.reshape(len(lines), -1).max(axis=1)
         return highest, numbers.largest_offset(at_rest + begin.x - rest.x)
 
-    for pulls, way in one_after_the_other(run_under, laws[1:], "laws of nets", progress):
-        peaks.append(pulls)
-        offsets.append(way)
-    coefficients = [float(law.coefficients(0.0, speed, cage.net, problem.kinematic_viscosity)[0]) for law in laws]
+    ended = [laws[0]]
+    for law, run in zip(laws[1:], one_after_the_other(run_under, laws[1:], "laws of nets", progress), strict=True):
+        if run is not None:
+            ended.append(law)
+            peaks.append(run[0])
+            offsets.append(run[1])
+    coefficients = [float(law.coefficients(0.0, speed, cage.net, problem.kinematic_viscosity)[0]) for law in ended]
     found = labelled(
         xr.Dataset(
             {
@@ -96,8 +101,14 @@ def laws_dataset(
                 "law_line_tension": (("law", "line"), np.array(peaks)),
                 "law_largest_offset": ("law", np.array(offsets)),
             },
-            coords={"law": [law.name for law in laws], "line": [line.name for line in lines]},
-            attrs={"wave": wave.name, "speed": speed, "valid": choice.named, "reynolds": choice.reynolds},
+            coords={"law": [law.name for law in ended], "line": [line.name for line in lines]},
+            attrs={
+                "wave": wave.name,
+                "speed": speed,
+                "valid": choice.named,
+                "reynolds": choice.reynolds,
+                "missing": len(laws) - len(ended),
+            },
         )
     )
     return found, choice_notice(choice, cage.net)

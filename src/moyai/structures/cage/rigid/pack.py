@@ -59,9 +59,9 @@ TABLE_DECADES = (-4, 1.5)
 FEW_WAVES = 4
 #: Error of the series at its rim and of the cubic between its times, over the amplitude of the shortest wave
 SERIES_ERROR = 1e-3
-#: Most terms of the series, of a phase of 25 across it, where rounding comes to 2e-5 of the shortest wave; beyond it
-#: waves are too short for the cage and are summed at every part
-MOST_TERMS = 72
+#: Most terms of the series, of a phase of 32 across it, where rounding comes to a hundredth of the shortest wave, a
+#: component of hardly any height; beyond it waves are too short for the cage and are summed at every part
+MOST_TERMS = 92
 #: Times of the series that are kept
 KEPT_TIMES = 16
 

@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
-from dataclasses import replace
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -18,7 +18,7 @@ from moyai.structures.cage.rigid.checks import limit_notices
 from moyai.structures.cage.rigid.lines import CageLine
 from moyai.structures.cage.rigid.model import RigidCageProblem
 from moyai.structures.cage.rigid.numbers import Numbers
-from moyai.structures.cage.rigid.runs import run_wave
+from moyai.structures.cage.rigid.runs import RigidCageRun, run_wave
 from moyai.structures.cage.rigid.statics import RigidCageEquilibrium
 from moyai.structures.cage.rigid.variables import labelled
 from moyai.structures.cage.rigid.waves import waves_of
@@ -30,15 +30,39 @@ if TYPE_CHECKING:
 MORE = "settings.rigid.realisations"
 
 
-def further_numbers(
+@dataclass(frozen=True, eq=False)
+class RigidCageRealisation:
+    """What is kept of a run through a sea."""
+
+    seed: int
+    #: ``None`` where the motion left all bounds.
+    numbers: Numbers | None
+    #: Four standard deviations of the surface after the waves have grown [m].
+    height: float
+
+    @classmethod
+    def of(cls, problem: RigidCageProblem, run: RigidCageRun) -> RigidCageRealisation:
+        """Return that of a run."""
+        ended = run.march.status == "converged"
+        return cls(int(run.wave.seed or 0), run.numbers if ended else None, realised_height(problem, run))
+
+
+def realised_height(problem: RigidCageProblem, run: RigidCageRun) -> float:
+    """Return four standard deviations of the surface after the waves have grown [m]."""
+    time = run.march.time
+    grown = min(problem.settings.ramp_periods * run.wave.period, float(time[-1]))
+    return 4.0 * float(run.elevation[time >= grown].std())
+
+
+def further_realisations(
     problem: RigidCageProblem,
     lines: tuple[CageLine, ...],
     rest: RigidCageEquilibrium,
     water: Water,
     sea: IrregularSea,
     progress: Progress = silent,
-) -> Iterator[tuple[int, Numbers | None]]:
-    """Yield the seed and the numbers of each further realisation of a sea, ``None`` of one that left all bounds.
+) -> Iterator[RigidCageRealisation]:
+    """Yield each further realisation of a sea; none without lines, whose numbers alone are chance.
 
     As many run at once as there are cores; what one gives depends on its seed alone.
 
@@ -53,42 +77,39 @@ def further_numbers(
         With the seed of the first realisation, which the run of the case is.
     progress : Progress
     """
-    count = problem.settings.realisations if problem.equations == "sound" else 1
+    count = problem.settings.realisations if problem.equations == "sound" and lines else 1
     seeds = [realisation_seed(sea.seed, number) for number in range(1, count)]
 
-    def realisation(seed: int, heard: Progress) -> Numbers | None:
+    def realisation(seed: int, heard: Progress) -> RigidCageRealisation:
         def told(what: str, done: float, total: float) -> None:
-            # hears of a stop, and leaves the line to the count of realisations
-            heard(words, number_of[seed], count)
+            parts[seed] = done / max(total, 1e-300)
+            heard(words, sum(parts.values()), len(seeds))
 
         wave = waves_of(problem, replace(sea, seed=seed), water)[0]
         found = run_wave(problem, lines, rest, water, wave, progress=told)
         if found.march.status == "interrupted":
             raise KeyboardInterrupt
-        return found.numbers if found.march.status == "converged" else None
+        return RigidCageRealisation.of(problem, found)
 
-    words = f"realisations, {sea.name}"
-    number_of = {seed: number for number, seed in enumerate(seeds, start=1)}
-    yield from zip(seeds, one_after_the_other(realisation, seeds, words, progress), strict=True)
+    words, parts = f"realisations, {sea.name}", dict.fromkeys(seeds, 0.0)
+    yield from one_after_the_other(realisation, seeds, words, progress)
 
 
-def with_realisations(
-    found: xr.Dataset, own: tuple[int, Numbers], others: list[tuple[int, Numbers | None]], at_rest: float
-) -> xr.Dataset:
+def with_realisations(found: xr.Dataset, all_of_them: Sequence[RigidCageRealisation], at_rest: float) -> xr.Dataset:
     """Return the numbers of a sea with the largest values of all realisations, those that ended.
 
     Parameters
     ----------
     found : Dataset
         Of the run of the case.
-    own, others
-        Seeds and numbers of that run and of the others.
+    all_of_them : sequence of RigidCageRealisation
+        That of the case first.
     at_rest : float
         Place of rest against where the cage floats freely [m].
     """
     import xarray as xr
 
-    kept = [own, *((seed, numbers) for seed, numbers in others if numbers is not None)]
+    kept = [(one.seed, one.numbers) for one in all_of_them if one.numbers is not None]
     data = {
         "seed_of_realisation": ("realisation", np.array([seed for seed, _ in kept], dtype=np.int64)),
         "line_tension_maximum_of_realisation": (
@@ -100,28 +121,21 @@ def with_realisations(
             np.array([numbers.largest_offset(at_rest) for _, numbers in kept]),
         ),
     }
-    return found.merge(labelled(xr.Dataset(data))).assign_attrs(found.attrs)
+    height = float(np.mean([one.height for one in all_of_them if one.numbers is not None]))
+    return found.merge(labelled(xr.Dataset(data))).assign_attrs(found.attrs | {"realised_height": height})
 
 
-def notices(others: list[tuple[int, Numbers | None]], lines: tuple[CageLine, ...]) -> list[Notice]:
-    """Return what the further realisations reach beyond limits, and how many were lost."""
-    found = lost(others)
-    for seed, numbers in others:
-        if numbers is not None:
-            roll = max(abs(float(numbers.maximum[2])), abs(float(numbers.minimum[2])))
-            found += limit_notices(f"seed {seed}", numbers.line_tension_maximum, roll, lines)
+def notices(others: Sequence[RigidCageRealisation], lines: tuple[CageLine, ...]) -> list[Notice]:
+    """Return what further realisations reach beyond limits."""
+    found: list[Notice] = []
+    for one in others:
+        if one.numbers is not None:
+            roll = max(abs(float(one.numbers.maximum[2])), abs(float(one.numbers.minimum[2])))
+            found += limit_notices(f"seed {one.seed}", one.numbers.line_tension_maximum, roll, lines)
     return found
 
 
-def lost(others: list[tuple[int, Numbers | None]]) -> list[Notice]:
-    """Say how many realisations left all bounds."""
-    count = sum(numbers is None for _, numbers in others)
-    if not count:
-        return []
-    return [
-        Notice(
-            "realisations-lost",
-            f"{count} of {len(others) + 1} realisations left all bounds: means are those of the others",
-            count, 0, remedy="smaller errors of a step, or lines with damping",
-        )
-    ]  # fmt: skip
+def lost(others: Sequence[RigidCageRealisation]) -> str:
+    """Say how many realisations left all bounds, in no words where none did."""
+    count = sum(one.numbers is None for one in others)
+    return f"{count} of {len(others) + 1} realisations left all bounds" if count else ""

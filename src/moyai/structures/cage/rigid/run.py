@@ -27,13 +27,18 @@ from moyai.structures.cage.rigid.checks import (
     run_notices,
 )
 from moyai.structures.cage.rigid.datasets import cage_dataset, sea_dataset, statics_dataset, time_dataset
-from moyai.structures.cage.rigid.headlines import rigid_headlines, rigid_offsets
+from moyai.structures.cage.rigid.headlines import (
+    offsets_of_each,
+    rigid_headlines,
+    rigid_offsets,
+    tensions_of_each,
+)
 from moyai.structures.cage.rigid.laws import IN_WAVES, laws_dataset
 from moyai.structures.cage.rigid.lines import CageLine
 from moyai.structures.cage.rigid.model import CageSea, RigidCageProblem, RigidCageWaves
 from moyai.structures.cage.rigid.modes import natural_modes
 from moyai.structures.cage.rigid.pack import pack
-from moyai.structures.cage.rigid.realisations import further_numbers, with_realisations
+from moyai.structures.cage.rigid.realisations import RigidCageRealisation, further_realisations, lost, with_realisations
 from moyai.structures.cage.rigid.realisations import notices as realisation_notices
 from moyai.structures.cage.rigid.runs import RigidCageRun, run_wave
 from moyai.structures.cage.rigid.sensitivity import sensitivity_dataset
@@ -131,11 +136,13 @@ def _law_steps(
         known = collected.groups.get(f"{root}/waves/{sea.name}")
         if known is None or not known["line_tension_maximum"].size:
             continue
-        peaks = _peaks(known)
         _, offsets = rigid_offsets(collected.groups[f"{root}/statics"], known)
         for number in range(known.sizes["wave"]):
-            each = {f"line {line}": float(peak) for line, peak in enumerate(peaks[number])}
-            values = {"tension": float(peaks[number].max()), "offset": float(offsets[number]), **each}
+            # of the means over realisations, which the first page shows
+            peaks = tensions_of_each(known, number).mean(axis=0).max(axis=1)
+            each = {f"line {line}": float(peak) for line, peak in enumerate(peaks)}
+            way = float(offsets_of_each(known, float(offsets[number])).mean())
+            values = {"tension": float(peaks.max()), "offset": way, **each}
             for name, value in values.items():
                 if name not in worst or value > worst[name][0]:
                     worst[name] = value, sea, number
@@ -183,7 +190,10 @@ def _sea_steps(
     reported: list[Notice] = []
 
     def march(wave: RigidCageWave, heard: Progress) -> RigidCageRun:
-        return run_wave(problem, lines, rest, water, wave, progress=silent if wave.regular else heard)
+        def told(what: str, done: float, total: float) -> None:
+            heard(f"time, {sea.name}", done, total)
+
+        return run_wave(problem, lines, rest, water, wave, progress=silent if wave.regular else told)
 
     marched = one_after_the_other(march, waves, f"time, {sea.name}", progress)
     for number, (wave, found) in enumerate(zip(waves, marched, strict=True)):
@@ -201,21 +211,26 @@ def _sea_steps(
             collected.failures.append(
                 f"{sea.name}, {wave.name}: the motion left all bounds at t = {found.march.time[-1]:.4g} s"
             )
-        collected.notices.extend(height_notices(sea.name, series))
         yield
-    if isinstance(sea, IrregularSea) and runs[0].march.status == "converged":
-        at_rest, _ = rigid_offsets(collected.groups[f"{root}/statics"], collected.groups[f"{root}/waves/{sea.name}"])
-        others = []
-        for one in further_numbers(problem, lines, rest, water, sea, progress):
-            others.append(one)
-            own = sea_dataset(problem, water, runs, lines)
-            numbers = with_realisations(own, (sea.seed, runs[0].numbers), others, at_rest)
-            collected.groups[f"{root}/waves/{sea.name}"] = numbers
-            yield
-        reported.extend(realisation_notices(others, lines))
-    collected.notices.extend(
-        replace(notice, message=f"{sea.name}: {notice.message}") for notice in most_severe(reported)
-    )
+    others: list[RigidCageRealisation] = []
+    group = f"{root}/waves/{sea.name}"
+    try:
+        if isinstance(sea, IrregularSea) and runs[0].march.status == "converged":
+            own, first = collected.groups[group], RigidCageRealisation.of(problem, runs[0])
+            at_rest, _ = rigid_offsets(collected.groups[f"{root}/statics"], own)
+            for one in further_realisations(problem, lines, rest, water, sea, progress):
+                others.append(one)
+                collected.groups[group] = with_realisations(own, [first, *others], at_rest)
+                yield
+            if said := lost(others):
+                collected.failures.append(f"{sea.name}: {said}")
+    finally:
+        # a run that is stopped keeps what those that ended say
+        collected.notices.extend(height_notices(sea.name, series, collected.groups[group]))
+        collected.notices.extend(
+            replace(notice, message=f"{sea.name}: {notice.message}")
+            for notice in most_severe([*reported, *realisation_notices(others, lines)])
+        )
 
 
 def _sensitivity_steps(
