@@ -10,7 +10,7 @@ import numpy as np
 from moyai.sea.water import Water
 from moyai.structures.cage.rigid.lines import CageLine
 from moyai.structures.cage.rigid.model import RigidCageProblem
-from moyai.structures.cage.rigid.runs import RigidCageRun
+from moyai.structures.cage.rigid.runs import RigidCageRun, realised_height
 from moyai.structures.cage.rigid.statics import RigidCageEquilibrium, reserve_buoyancy, size_of, submerged_weight
 from moyai.structures.cage.rigid.variables import labelled
 
@@ -180,7 +180,6 @@ def time_dataset(problem: RigidCageProblem, run: RigidCageRun, lines: tuple[Cage
 
     motion = run.march.state[:, :3] - run.rest.place
     ramp = problem.settings.ramp_periods * run.wave.period
-    steady = run.march.time >= min(ramp, float(run.march.time[-1]))
     return labelled(
         xr.Dataset(
             {
@@ -205,7 +204,7 @@ def time_dataset(problem: RigidCageProblem, run: RigidCageRun, lines: tuple[Cage
                 "heading": float(run.wave.components.heading[0]),
                 "regular": int(run.wave.regular),
                 "size": size_of(problem.cage),
-                "realised_height": 4.0 * float(run.elevation[steady].std()),
+                "realised_height": realised_height(problem, run),
                 **({} if run.wave.seed is None else {"seed": run.wave.seed}),
             },
         )

@@ -193,7 +193,7 @@ def _rigid_band(
     scatter = f"mean of the largest of {each.size} realisations, their standard deviation {deviation:.2g} %"
     said = "; ".join(filter(None, (scatter, said)))
     if any(one.sizes["law"] > 1 for one in laws):
-        words.append("what the laws change by the first seed")
+        words.append("the change by the laws is that of the first seed")
     return replace(several.scaled(least, most), of="; ".join([several.of, *few, *words])), said
 
 

@@ -18,7 +18,7 @@ from moyai.structures.cage.rigid.checks import limit_notices
 from moyai.structures.cage.rigid.lines import CageLine
 from moyai.structures.cage.rigid.model import RigidCageProblem
 from moyai.structures.cage.rigid.numbers import Numbers
-from moyai.structures.cage.rigid.runs import RigidCageRun, run_wave
+from moyai.structures.cage.rigid.runs import RigidCageRun, realised_height, run_wave
 from moyai.structures.cage.rigid.statics import RigidCageEquilibrium
 from moyai.structures.cage.rigid.variables import labelled
 from moyai.structures.cage.rigid.waves import waves_of
@@ -45,13 +45,6 @@ class RigidCageRealisation:
         """Return that of a run."""
         ended = run.march.status == "converged"
         return cls(int(run.wave.seed or 0), run.numbers if ended else None, realised_height(problem, run))
-
-
-def realised_height(problem: RigidCageProblem, run: RigidCageRun) -> float:
-    """Return four standard deviations of the surface after the waves have grown [m]."""
-    time = run.march.time
-    grown = min(problem.settings.ramp_periods * run.wave.period, float(time[-1]))
-    return 4.0 * float(run.elevation[time >= grown].std())
 
 
 def further_realisations(

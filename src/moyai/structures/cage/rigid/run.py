@@ -195,26 +195,26 @@ def _sea_steps(
 
         return run_wave(problem, lines, rest, water, wave, progress=silent if wave.regular else told)
 
-    marched = one_after_the_other(march, waves, f"time, {sea.name}", progress)
-    for number, (wave, found) in enumerate(zip(waves, marched, strict=True)):
-        runs.append(found)
-        label = f"wave {number + 1}" if wave.regular else "sea"
-        series = time_dataset(problem, found, lines)
-        collected.groups[f"{root}/time/{sea.name}/{label}"] = series
-        collected.groups[f"{root}/waves/{sea.name}"] = sea_dataset(problem, water, runs, lines)
-        reported.extend(run_notices(problem, found, lines))
-        collected.checks.extend(run_checks(sea.name, problem, found, lines))
-        if found.march.status == "interrupted":
-            collected.interrupted = STOPPED
-            raise KeyboardInterrupt
-        if found.march.status == "not_converged":
-            collected.failures.append(
-                f"{sea.name}, {wave.name}: the motion left all bounds at t = {found.march.time[-1]:.4g} s"
-            )
-        yield
     others: list[RigidCageRealisation] = []
     group = f"{root}/waves/{sea.name}"
     try:
+        marched = one_after_the_other(march, waves, f"time, {sea.name}", progress)
+        for number, (wave, found) in enumerate(zip(waves, marched, strict=True)):
+            runs.append(found)
+            label = f"wave {number + 1}" if wave.regular else "sea"
+            series = time_dataset(problem, found, lines)
+            collected.groups[f"{root}/time/{sea.name}/{label}"] = series
+            collected.groups[group] = sea_dataset(problem, water, runs, lines)
+            reported.extend(run_notices(problem, found, lines))
+            collected.checks.extend(run_checks(sea.name, problem, found, lines))
+            if found.march.status == "interrupted":
+                collected.interrupted = STOPPED
+                raise KeyboardInterrupt
+            if found.march.status == "not_converged":
+                collected.failures.append(
+                    f"{sea.name}, {wave.name}: the motion left all bounds at t = {found.march.time[-1]:.4g} s"
+                )
+            yield
         if isinstance(sea, IrregularSea) and runs[0].march.status == "converged":
             own, first = collected.groups[group], RigidCageRealisation.of(problem, runs[0])
             at_rest, _ = rigid_offsets(collected.groups[f"{root}/statics"], own)
@@ -225,8 +225,9 @@ def _sea_steps(
             if said := lost(others):
                 collected.failures.append(f"{sea.name}: {said}")
     finally:
-        # a run that is stopped keeps what those that ended say
-        collected.notices.extend(height_notices(sea.name, series, collected.groups[group]))
+        # what is stopped keeps what the runs that ended say
+        if runs and runs[-1].march.status != "interrupted":
+            collected.notices.extend(height_notices(sea.name, series, collected.groups[group]))
         collected.notices.extend(
             replace(notice, message=f"{sea.name}: {notice.message}")
             for notice in most_severe([*reported, *realisation_notices(others, lines)])

@@ -33,6 +33,13 @@ class RigidCageRun:
     rest: RigidCageEquilibrium
 
 
+def realised_height(problem: RigidCageProblem, run: RigidCageRun) -> float:
+    """Return four standard deviations of the surface after the waves have grown [m]."""
+    time = run.march.time
+    grown = min(problem.settings.ramp_periods * run.wave.period, float(time[-1]))
+    return 4.0 * float(run.elevation[time >= grown].std())
+
+
 def end_tensions(lines: tuple[CageLine, ...], attachment_z: Array, tension: Array) -> Array:
     """Return the tension at cage and anchor of straight lines; the weight in water parts them [eq:cage-ends].
 
