@@ -17,22 +17,31 @@ Item = TypeVar("Item")
 Found = TypeVar("Found")
 
 
-class _Share(threading.local):
-    """Cores that the parts of a part may take."""
+class _Cores:
+    """The cores of a run, one for each part at work; a part that waits for parts of its own leaves its core to them."""
 
-    cores = 1
+    def __init__(self, count: int) -> None:
+        self.count, self.free = count, threading.Semaphore(count)
 
 
-_SHARE = _Share()
+class _Thread(threading.local):
+    """What a thread works with: the cores of the run of which it does a part."""
+
+    cores: _Cores | None = None
+
+
+_THREAD = _Thread()
 
 
 def threads() -> int:
-    """Return how many parts run at a time: the cores that this process may use, or ``MOYAI_THREADS``.
+    """Return how many parts may run at a time: the cores that this process may use, or ``MOYAI_THREADS``.
 
-    Within a part it is the share of that part, in any other thread 1.
+    Parts of parts share the same cores; in a thread that does no part it is 1.
     """
+    if _THREAD.cores is not None:
+        return _THREAD.cores.count
     if threading.current_thread() is not threading.main_thread():
-        return _SHARE.cores
+        return 1
     given = os.environ.get("MOYAI_THREADS", "")
     if given.isdigit():
         return max(1, int(given))
@@ -76,11 +85,11 @@ def at_once(work: Callable[[int, Progress], None], count: int, progress: Progres
 
         return listen
 
-    size = min(count, threads())
-    share = threads() // max(size, 1)
+    cores, is_part = _THREAD.cores or _Cores(threads()), _THREAD.cores is not None
+    size = min(count, cores.count)
 
     def go() -> None:
-        _SHARE.cores = share
+        _THREAD.cores = cores
         while True:
             with guard:
                 number = next(waiting, None)
@@ -88,8 +97,9 @@ def at_once(work: Callable[[int, Progress], None], count: int, progress: Progres
                 reports.put(None)
                 return
             try:
-                if not stopped[number].is_set():
-                    work(number, heard(number))
+                with cores.free:
+                    if not stopped[number].is_set():
+                        work(number, heard(number))
             except BaseException as error:
                 failed[number] = error
                 stop(number + 1)
@@ -97,6 +107,8 @@ def at_once(work: Callable[[int, Progress], None], count: int, progress: Progres
     pool = [
         threading.Thread(target=copy_context().run, args=(go,), name="part of a run", daemon=True) for _ in range(size)
     ]
+    if is_part:
+        cores.free.release()
     try:
         for each in pool:
             each.start()
@@ -116,6 +128,9 @@ def at_once(work: Callable[[int, Progress], None], count: int, progress: Progres
             if each.ident is not None:
                 each.join()
         raise
+    finally:
+        if is_part:
+            cores.free.acquire()
     if failed:
         raise failed[min(failed)]
 

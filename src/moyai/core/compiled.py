@@ -12,7 +12,10 @@ optimised once, as a part of what Python calls.
 from __future__ import annotations
 
 import hashlib
+import io
+import pickle
 import re
+import sys
 from collections.abc import Callable, Iterator, Sequence
 from contextlib import contextmanager, suppress
 from functools import cache, partial
@@ -23,14 +26,18 @@ import numba
 from numba.core import event, sigutils, typing
 from numba.core.caching import CompileResultCacheImpl, FunctionCache, IndexDataCacheFile
 from numba.core.codegen import JITCodeLibrary
-from numba.core.compiler import Flags, compile_extra
+from numba.core.compiler import Compiler, Flags, compile_extra
+from numba.core.environment import Environment, _rebuild_env, lookup_environment
 from numba.core.registry import CPUDispatcher
+from numba.core.runtime import rtsys
 
-from moyai.core.compile_costs import cut_costs
 from moyai.core.shipped_kernels import shipped
 
 _PACKAGE = Path(__file__).parents[1]
 _IMPORT = re.compile(r"^from (moyai[\w.]*) import (\([^)]*\)|[^\n]*)", re.MULTILINE)
+#: Versions of numba whose dispatchers are known to take kernels in as parts; with others kernels are compiled as numba
+#: does it by itself, which takes longer and gives the same.
+_KNOWN = numba.__version__.split(".")[:2] == ["0", "68"]
 
 
 @cache
@@ -74,6 +81,25 @@ class _CacheImpl(CompileResultCacheImpl):  # type: ignore[misc]
     _locator_classes: ClassVar = [_with_stamp(locator) for locator in CompileResultCacheImpl._locator_classes]
 
 
+def _environment(module: str, constants: list[Any], name: str) -> Environment:
+    """Return the environment of a function of a kernel; see numba's function ``_rebuild_env``.
+
+    Numba imports the module of each function that a kernel called. Machine code takes from the environment no more than
+    constants, so that a module of numba that is not there yet is left out.
+    """
+    found = lookup_environment(name)
+    if found is None and module.startswith("numba.") and module not in sys.modules:
+        found = Environment({"__name__": module})
+        found.consts[:], found.env_name = constants, name
+        Environment._memo[name] = found
+    return found or _rebuild_env(module, constants, name)
+
+
+class _Unpickler(pickle.Unpickler):
+    def find_class(self, module: str, name: str) -> Any:
+        return _environment if _KNOWN and name == "_rebuild_env" else super().find_class(module, name)
+
+
 class _Files(IndexDataCacheFile):  # type: ignore[misc]
     """Files of a kernel; those that cannot be read, damaged or of classes that are gone, are written anew."""
 
@@ -85,7 +111,7 @@ class _Files(IndexDataCacheFile):  # type: ignore[misc]
 
     def _load_data(self, name: str) -> Any:
         try:
-            return super()._load_data(name)
+            return _Unpickler(io.BytesIO(Path(self._data_path(name)).read_bytes())).load()
         except Exception as error:
             raise OSError(f"{name} cannot be read") from error
 
@@ -96,6 +122,17 @@ class _Cache(FunctionCache):  # type: ignore[misc]
     def __init__(self, function: Callable[..., Any]) -> None:
         super().__init__(function)
         self._cache_file.__class__ = _Files
+
+    def load_overload(self, sig: Any, target_context: Any) -> Any:
+        """Return a kernel that is kept, ``None`` where there is none; see numba's method.
+
+        Numba first loads all that it knows of Python and numpy; machine code requires nothing but its runtime.
+        """
+        if not _KNOWN:
+            return super().load_overload(sig, target_context)
+        rtsys.initialize(target_context)
+        with self._guard_against_spurious_io_errors():
+            return self._load_overload(sig, target_context)
 
     def _load_overload(self, sig: Any, target_context: Any) -> Any:
         """Return a kernel of the cache, or the one that came with the package; see numba's method."""
@@ -110,6 +147,18 @@ class _Cache(FunctionCache):  # type: ignore[misc]
 
     def _files_in(self, folder: Path) -> _Files:
         return _Files(str(folder), self._impl.filename_base, self._cache_file._source_stamp)
+
+
+class _Compiler(Compiler):  # type: ignore[misc]
+    """Numba's compiler with less work, if its version is known."""
+
+    def __init__(self, *arguments: Any) -> None:
+        if _KNOWN:
+            # Not before something is compiled: it imports a lot
+            from moyai.core.compile_costs import cut_costs
+
+            cut_costs()
+        super().__init__(*arguments)
 
 
 class _Part(JITCodeLibrary):  # type: ignore[misc]
@@ -175,13 +224,6 @@ class _Kernel(_Whole):
         return self._parts[tuple(arguments)][1]
 
 
-#: Versions of numba whose dispatchers are known to take kernels in as parts; with others kernels are compiled as numba
-#: does it by itself, which takes longer and gives the same.
-_KNOWN = numba.__version__.split(".")[:2] == ["0", "68"]
-if _KNOWN:
-    cut_costs()
-
-
 def njit(*, pointer: bool = False, **options: Any) -> Callable[[Callable[..., Any]], Any]:
     """Return numba's decorator of the same name; ``cache=True`` sees the kernels that a kernel calls.
 
@@ -196,7 +238,8 @@ def njit(*, pointer: bool = False, **options: Any) -> Callable[[Callable[..., An
         if numba.config.DISABLE_JIT:
             return function
         kind = _Kernel if _KNOWN else _Whole
-        kernel = kind(py_func=function, targetoptions={"nopython": True, "boundscheck": None, **options})
+        target = {"nopython": True, "boundscheck": None, **options}
+        kernel = kind(py_func=function, targetoptions=target, pipeline_class=_Compiler)
         if cached:
             kernel._cache = _Cache(function)
         return kernel

@@ -12,6 +12,7 @@ from numpy.typing import NDArray
 from moyai.core.arrays import Array, ComplexArray
 from moyai.core.errors import InputError
 from moyai.core.options import checks_words
+from moyai.core.remembered import Remembered, key_of_objects
 from moyai.flexible.flow import Flow
 from moyai.flexible.sea_table_kernel import COLUMNS, spread_kinematics
 from moyai.sea.components import WaveComponents
@@ -28,6 +29,7 @@ FEW_COMPONENTS = 8
 LEAST_MERGED = 0.25
 #: Numbers of a tabulated sea.
 MOST_NUMBERS = 4e8
+_WINDOWS: Remembered[ShortWindow] = Remembered(4)
 
 
 @checks_words
@@ -124,15 +126,16 @@ def _table(waves: WaveComponents, nodes: Array, count: int, step: float) -> NDAr
     out = np.zeros((7, len(nodes), count), dtype=np.float32)
     time, level = step * np.arange(count, dtype=np.float64), np.minimum(nodes[:, 2], 0.0)
     if np.ptp(waves.omega) < LEAST_MERGED * len(waves) * frequency_spacing(time):
-        window = ShortWindow.of(waves.omega, time)
+        # events of a sea differ in their phases
+        window = _WINDOWS.of(key_of_objects(waves.omega, time), lambda: ShortWindow.of(waves.omega, time))
         parts = (
             waves.amplitude, waves.phase - waves.omega * window.middle, waves.intrinsic_omega, waves.wave_number,
             np.cos(waves.heading), np.sin(waves.heading),
         )  # fmt: skip
         sea = tuple(np.array(part, dtype=np.float64) for part in parts)
-        spread = np.zeros((len(nodes), window.count, COLUMNS))
+        spread = np.zeros((window.count, len(nodes) * COLUMNS))
         spread_kinematics(np.array(nodes), level, sea, float(water.depth), window.first, window.shares, spread)
-        rows = spread.reshape(len(nodes), -1, 7, 2).transpose(2, 0, 1, 3).reshape(7 * len(nodes), -1)
+        rows = spread.reshape(window.count, len(nodes), 7, 2).transpose(2, 1, 0, 3).reshape(7 * len(nodes), -1)
         out[:] = (rows @ window.waves).reshape(out.shape)
         return out
     k, depth = waves.wave_number, water.depth

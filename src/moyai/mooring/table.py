@@ -10,7 +10,7 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass, field, replace
-from functools import lru_cache
+from functools import cached_property, lru_cache
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -136,8 +136,9 @@ class _Grid:
             out[..., block + 3] = mixed[..., by_x]
         return out
 
+    @cached_property
     def packed(self) -> tuple[Array, IntArray, IntArray]:
-        """Return nodes, lookup and index for the compiled table."""
+        """Nodes, lookup and index for the compiled table."""
         nodes = np.concatenate([self.xi, self.z, self.reference, self.slope, self.node_values().ravel()])
         lookup = np.concatenate([_bins(self.xi), _bins(self.z)])
         index = np.array([0, len(self.xi), len(self.z), 0, _BINS, _BINS], dtype=np.int64)
@@ -155,7 +156,7 @@ def _grid(line: Line, depth: float, xi: Array, z: Array, aligned: bool) -> _Grid
 
 def _errors(grid: _Grid, x: Array, z: Array) -> Array:
     """Return the relative error of the table at points of any shape."""
-    nodes, lookup, index = grid.packed()
+    nodes, lookup, index = grid.packed
     out = np.empty((x.size, 2))
     pk.table_force_batch(x.ravel(), z.ravel(), index, nodes, lookup, out)
     exact = _exact(grid.line, grid.depth, x, z)
@@ -236,7 +237,7 @@ def tabulate_line(
     random = np.random.default_rng(20240)
     points_x = random.uniform(*horizontal_range, 4000)
     points_z = random.uniform(*vertical_range, 4000)
-    nodes, lookup, index = grid.packed()
+    nodes, lookup, index = grid.packed
     return TabulatedForce(
         line,
         water_depth,

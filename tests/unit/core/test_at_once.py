@@ -98,9 +98,9 @@ def test_the_first_of_the_failures_is_raised_and_stops_what_stands_behind_it() -
 
 
 def test_parts_share_the_cores(monkeypatch: pytest.MonkeyPatch) -> None:
-    assert each_at_once(lambda item, _: (item, threads()), "abcd") == [(item, 1) for item in "abcd"]
+    assert each_at_once(lambda item, _: (item, threads()), "abcd") == [(item, 3) for item in "abcd"]
     monkeypatch.setenv("MOYAI_THREADS", "7")
-    assert each_at_once(lambda item, _: threads(), (1, 2)) == [3, 3]
+    assert each_at_once(lambda item, _: threads(), (1, 2)) == [7, 7]
     # other threads than these start none
     other: list[int] = []
     thread = threading.Thread(target=lambda: other.append(threads()))
@@ -108,6 +108,31 @@ def test_parts_share_the_cores(monkeypatch: pytest.MonkeyPatch) -> None:
     thread.join()
     monkeypatch.delenv("MOYAI_THREADS")
     assert other == [1] and threads() >= 1
+
+
+def test_parts_of_parts_use_the_cores_that_are_free_and_no_more(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setenv("MOYAI_THREADS", "2")
+    guard, at_work, most = threading.Lock(), [0], {"short": 0, "long": 0}
+    both = threading.Barrier(2, timeout=20.0)
+
+    def inner(outer: str, number: int) -> None:
+        with guard:
+            at_work[0] += 1
+            most[outer] = max(most[outer], at_work[0])
+        if outer == "long" and number >= 8:
+            # the short part has ended: its core serves the long one
+            both.wait()
+        time.sleep(0.01)
+        with guard:
+            at_work[0] -= 1
+
+    def work(outer: str, _: Any) -> str:
+        count = {"short": 2, "long": 10}[outer]
+        each_at_once(lambda number, _: inner(outer, number), range(count))
+        return outer
+
+    assert each_at_once(work, ("short", "long")) == ["short", "long"]
+    assert max(most.values()) == 2
 
 
 @pytest.mark.slow
