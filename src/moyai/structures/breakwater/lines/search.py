@@ -96,9 +96,11 @@ class _RerunSearch:
 
     member: Realisation
     events: list[tuple[float, float]]
-    runs: list[TimeRun] = field(default_factory=list)
     numbers: list[dict[str, Array]] = field(default_factory=list)
+    offsets: list[Array] = field(default_factory=list)
     tensions: list[float] = field(default_factory=list)
+    #: The rerun with the largest tension; the others are not kept, they are large.
+    run: TimeRun | None = None
 
     @property
     def best(self) -> float:
@@ -107,7 +109,14 @@ class _RerunSearch:
     @property
     def next(self) -> float:
         """Tension with lines at rest of the event that comes next [N], 0 after the last."""
-        return self.events[len(self.runs)][1] if len(self.runs) < len(self.events) else 0.0
+        return self.events[len(self.tensions)][1] if len(self.tensions) < len(self.events) else 0.0
+
+    def take(self, run: TimeRun, numbers: dict[str, Array], tension: float) -> None:
+        if self.run is None or tension > self.best:
+            self.run = run
+        self.numbers.append(numbers)
+        self.offsets.append(event_offsets(run))
+        self.tensions.append(tension)
 
     def ratio(self) -> float:
         pairs = zip(self.tensions, self.events, strict=False)
@@ -164,21 +173,19 @@ def _ratio(searches: list[_RerunSearch]) -> float:
 
 
 def _is_open(search: _RerunSearch, ratio: float, floor: float) -> bool:
-    return len(search.runs) < MOST_EVENTS and search.next * ratio > max(search.best, floor)
+    return len(search.tensions) < MOST_EVENTS and search.next * ratio > max(search.best, floor)
 
 
 def _rerun(given: EventSettings, search: _RerunSearch, line: int, progress: Progress) -> None:
     one = search.member
-    event = search.events[len(search.runs)][0]
+    event = search.events[len(search.tensions)][0]
     run = run_event(given, one.forcing, one.around, one.run.simulation, line, event, progress)
     if run.simulation.status == "interrupted":
         raise KeyboardInterrupt
     if run.simulation.status != "converged":
         raise ConvergenceError(f"lines in motion: {run.simulation.message}")
     numbers = event_numbers(given.moving.unit, run)
-    search.runs.append(run)
-    search.numbers.append(numbers)
-    search.tensions.append(float(numbers["line_tension_maximum"][line]))
+    search.take(run, numbers, float(numbers["line_tension_maximum"][line]))
 
 
 def _answer(search: _RerunSearch, ratio: float) -> EventsInMotion:
@@ -190,5 +197,6 @@ def _answer(search: _RerunSearch, ratio: float) -> EventsInMotion:
             combined[name] = stack.max(axis=0)
         elif name.startswith("least_grounded"):
             combined[name] = stack.min(axis=0)
-    offsets = np.array([event_offsets(run) for run in search.runs])
-    return EventsInMotion(search.runs[at], combined, len(search.runs), offsets, max(search.best, search.next * ratio))
+    assert search.run is not None
+    bound = max(search.best, search.next * ratio)
+    return EventsInMotion(search.run, combined, len(search.tensions), np.array(search.offsets), bound)
