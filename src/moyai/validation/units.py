@@ -223,7 +223,7 @@ def scattered(mesh: PanelMesh, water: Water, k: float, points: Array) -> Array:
     heading = np.zeros(1)
     found = solve_frequency(panels, water, omega, heading)
     given = given_flow(panels, water, omega, k, heading)[:, 6:]
-    waves = elevation_at(points, panels, water, omega, k, found.diffraction, given)[:, 0]
+    waves = elevation_at(points, panels, water, omega, found.diffraction, given)[:, 0]
     return np.asarray(np.abs(waves + np.exp(1j * k * points[:, 0])))
 
 

@@ -17,13 +17,13 @@ from moyai.core.arrays import Array, ComplexArray
 from moyai.core.validation import ValidationCase
 from moyai.structures.units.assembly import RowAtLevel
 from moyai.structures.units.bem import MeshPanels, capytaine_mesh, panels_of
-from moyai.structures.units.green import green_function
 from moyai.structures.units.hydrodynamics import RowHydrodynamics, solve_row
 from moyai.structures.units.mesh import HULL, row_mesh
 from moyai.structures.units.model import Connector
 from moyai.structures.units.response import RowModel, respond
 from moyai.structures.units.time.memory import RowMemory, fit_row_memory
 from moyai.structures.units.time.model import RowInTime
+from moyai.validation.capytaine_peer import closer_green_function
 from moyai.validation.units import WATER, at_rest, row
 
 HEAD = math.pi / 2.0
@@ -61,7 +61,7 @@ def _solved_by_capytaine(displacements: dict[str, Array], omega: float) -> tuple
     plain = capytaine_mesh(mesh.corners)
     body: Any = capytaine.FloatingBody(mesh=plain)
     body.dofs.update(displacements)
-    solver = capytaine.BEMSolver(green_function=green_function(), method="direct")
+    solver = capytaine.BEMSolver(green_function=closer_green_function(), method="direct")
     given = {"body": body, "omega": omega, "water_depth": WATER.depth, "rho": WATER.density, "g": WATER.gravity}
     names = list(displacements)
     # without its warning of irregular frequencies, whose search among single panels takes longer than the solution

@@ -1,4 +1,4 @@
-"""Radiation and diffraction of all units together, by panels and Green's identity; Green function of Capytaine.
+"""Radiation and diffraction of all units together, by panels and Green's identity; integrals of 1/r by Capytaine.
 
 Time factor e^{-i omega t}. The potential on the panels follows from its normal velocity [eq:units-green]: that of the
 hull, none on lids inside of hulls; the surface in a gap may be damped [eq:units-gap-lid]. All motions of all units and
@@ -20,9 +20,17 @@ from moyai.core.errors import InputError
 from moyai.sea.dispersion import wave_number
 from moyai.sea.water import Water
 from moyai.structures.units.green import green_function
-from moyai.structures.units.mesh import GAP, HULL, PanelMesh, turned_round
+from moyai.structures.units.mesh import GAP, HULL, PanelMesh
 from moyai.structures.units.symmetry import Symmetry, symmetry_of
-from moyai.structures.units.variation import Variation, even_variation, rankine_terms, variation_of
+from moyai.structures.units.variation import (
+    Variation,
+    even_variation,
+    gauss_points,
+    images_of,
+    rankine_terms,
+    variation_of,
+)
+from moyai.structures.units.wave_green import WaveGreen
 
 #: Bytes of a complex number
 _COMPLEX = 16
@@ -32,6 +40,8 @@ LEAST_DEPTH = 0.1
 DIRECTIONS = 180
 #: Points whose field is evaluated at once
 _BATCH = 500
+#: Points a direction on panels near the mirror of a source in the surface
+_POINTS = 4
 
 
 def engine_version() -> str:
@@ -58,43 +68,55 @@ class MeshPanels:
     even: bool = False
 
     @cached_property
-    def part(self) -> Any:
-        """The part of the mesh that is solved for, as Capytaine takes it, which keeps its centres and normals."""
-        return capytaine_mesh(self.mesh.corners[self.symmetry.part])
-
-    @cached_property
-    def images(self) -> tuple[Any, ...]:
-        """The part in every mirror, likewise."""
-        found = []
-        for over_x, over_y in self.symmetry.mirrors:
-            sides = np.array([-1.0 if over_x else 1.0, -1.0 if over_y else 1.0, 1.0])
-            corners = self.mesh.corners[self.symmetry.part] * sides
-            # a mirror turns the corners round
-            found.append(capytaine_mesh(turned_round(corners) if over_x != over_y else corners))
-        return tuple(found)
-
-    @cached_property
     def variation(self) -> Variation:
         """How quantities vary over the panels."""
         return even_variation(self.mesh) if self.even else variation_of(self.mesh)
 
+    @cached_property
+    def wave_panels(self) -> tuple[Array, ...]:
+        """The panels as :func:`moyai.structures.units.wave_green_kernel.wave_layers` takes them."""
+        mesh, areas = self.mesh, self.variation.areas
+        points, parts = gauss_points(mesh.corners, _POINTS)
+        radius = np.linalg.norm(mesh.corners - mesh.centre[:, None], axis=2).max(axis=1)
+        given = mesh.centre, mesh.normal, areas, radius, points, parts * (areas / mesh.area)[:, None]
+        return tuple(np.ascontiguousarray(item) for item in given)
+
+    def reach(self, points: Array) -> float:
+        """Return the largest distance in plan [m] of points (p, 2 or 3) from panels."""
+        every = np.concatenate([points[:, :2], self.mesh.centre[:, :2], self.mesh.corners[:, :, :2].reshape(-1, 2)])
+        return float(np.linalg.norm(np.ptp(every, axis=0)))
+
+    @property
+    def lowest(self) -> float:
+        """Level of the deepest corner [m]."""
+        return float(self.mesh.corners[..., 2].min())
+
     def rankine(self, depth: float) -> tuple[Array, Array]:
-        """Return what variation over the panels adds to single and double layer (q, n) in water of a depth [m]."""
+        """Return single and double layer (q, n) of 1/r and its mirrors on the part, in water of a depth [m]."""
         kept: dict[float, tuple[Array, Array]] = self.__dict__.setdefault("_rankine", {})
-        if self.even:
-            nothing = np.zeros((len(self.symmetry.part), self.mesh.count))
-            return nothing, nothing
         if depth not in kept:
-            engine, full = green_function(), capytaine_mesh(self.mesh.corners)
-
-            def even(points: Array) -> tuple[Array, Array]:
-                found: tuple[Array, Array] = engine.evaluate_rankine_only(
-                    points, full, adjoint_double_layer=False, diagonal_term_in_double_layer=False
-                )
-                return found
-
-            kept[depth] = rankine_terms(self.mesh, self.symmetry.part, self.variation, depth, even)
+            part = self.symmetry.part
+            if self.even:
+                kept[depth] = self.even_rankine(self.mesh.centre[part], depth)
+            else:
+                kept[depth] = rankine_terms(self.mesh, part, self.variation, depth, self._even)
         return kept[depth]
+
+    def even_rankine(self, points: Array, depth: float) -> tuple[Array, Array]:
+        """Return the same of even panels at any points (p, 3) in the water."""
+        found = [self._even(point) for point, _ in images_of(points, depth)]
+        return sum(one for one, _ in found), sum(two for _, two in found)  # type: ignore[return-value]
+
+    def _even(self, points: Array) -> tuple[Array, Array]:
+        found: tuple[Array, Array] = green_function().evaluate_rankine_only(
+            np.ascontiguousarray(points), self._engine_mesh, adjoint_double_layer=False,
+            diagonal_term_in_double_layer=False,
+        )  # fmt: skip
+        return found
+
+    @cached_property
+    def _engine_mesh(self) -> Any:
+        return capytaine_mesh(self.mesh.corners)
 
 
 def panels_of(mesh: PanelMesh, centres: Array, gap_damping: float = 0.0) -> MeshPanels:
@@ -203,7 +225,7 @@ def solve_frequency(panels: MeshPanels, water: Water, omega: float, headings: Ar
     _check_depth(k, water, omega)
     incident, incident_normal = incident_on(mesh, water, omega, k, headings)
     given = given_flow(panels, water, omega, k, headings)
-    surface = _solved(panels, water, omega, k, given, incident)
+    surface = _solved(panels, water, omega, given, incident)
     count = len(panels.modes)
     wet = mesh.part != GAP
     areas = panels.variation.areas
@@ -291,29 +313,22 @@ def capytaine_mesh(corners: Array) -> Any:
     return Mesh(corners.reshape(-1, 3), faces, auto_clean=False, auto_check=False)
 
 
-def _blocks(panels: MeshPanels, water: Water, k: float) -> list[tuple[ComplexArray, ComplexArray]]:
-    """Return single and double layer of every image of the part on the part, of values at the centres."""
-    engine, group = green_function(), panels.symmetry
-    further = panels.rankine(water.depth)
-    share = panels.variation.areas / panels.mesh.area
-    level = np.abs(panels.mesh.centre[group.part, 2]) < 1e-9
-    found = []
-    for image, columns in zip(panels.images, group.images):
-        layers = engine.evaluate(
-            panels.part, image, free_surface=0.0, water_depth=water.depth, wavenumber=k,
-            adjoint_double_layer=False, diagonal_term_in_double_layer=False,
-        )  # fmt: skip
-        for layer, more in zip(layers, further):
-            layer *= share[columns]
-            layer += more[:, columns]
-        found.append(layers)
+def _layers_on_part(panels: MeshPanels, water: Water, omega: float) -> tuple[ComplexArray, ComplexArray]:
+    """Return single and double layer (q, n) of all panels on the part, of values at the centres."""
+    part = panels.symmetry.part
+    centre = panels.mesh.centre
+    green = WaveGreen.of(water, omega, panels.reach(centre), panels.lowest)
+    single, double = green.layers(centre[part], panels.wave_panels)
+    for layer, steady in zip((single, double), panels.rankine(water.depth)):
+        layer += steady
     # the jump of the double layer at its own panel, on both sides of a panel in the surface
-    found[0][1][np.diag_indices(len(level))] += np.where(level, 1.0, 0.5)
-    return found
+    level = np.abs(centre[part, 2]) < 1e-9
+    double[np.arange(len(part)), part] += np.where(level, 1.0, 0.5)
+    return single, double
 
 
 def _solved(
-    panels: MeshPanels, water: Water, omega: float, k: float, given: ComplexArray, incident: ComplexArray
+    panels: MeshPanels, water: Water, omega: float, given: ComplexArray, incident: ComplexArray
 ) -> ComplexArray:
     """Return the potentials (n, r) of given normal velocities; in gaps the sources of the damped surface.
 
@@ -321,7 +336,7 @@ def _solved(
     the normal velocity [eq:units-green], and the surface in a gap is a source of its own [eq:units-gap-lid].
     """
     mesh, group = panels.mesh, panels.symmetry
-    blocks = _blocks(panels, water, k)
+    layers = _layers_on_part(panels, water, omega)
     gap = mesh.part[group.part] == GAP
     rate = 1j * panels.gap_damping * omega**2 / water.gravity
     moved = np.zeros_like(given)
@@ -329,8 +344,7 @@ def _solved(
     flow, wave = group.split(given), group.split(moved)
     found = np.empty_like(flow)
     for number, parity in enumerate(group.parities):
-        single = sum(sign * block[0] for sign, block in zip(parity, blocks))
-        matrix = np.array(sum(sign * block[1] for sign, block in zip(parity, blocks)))
+        single, matrix = (sum(sign * layer[:, image] for sign, image in zip(parity, group.images)) for layer in layers)
         right = single @ flow[number]
         if gap.any():
             matrix[gap] *= -rate
@@ -377,19 +391,30 @@ def _far_factor(water: Water, k: float) -> float:
 
 
 def elevation_at(
-    points: Array, panels: MeshPanels, water: Water, omega: float, k: float, surface: ComplexArray, given: ComplexArray
-) -> ComplexArray:
-    """Return the surface elevation (p, r) [m] at points (p, 2) of the row that solutions (n, r) make."""
-    engine, full = green_function(), capytaine_mesh(panels.mesh.corners)
+    points: Array, panels: MeshPanels, water: Water, omega: float, surface: ComplexArray, given: ComplexArray,
+    steady: tuple[Array, Array] | None = None,
+) -> ComplexArray:  # fmt: skip
+    """Return the surface elevation (p, r) [m] at points (p, 2) of the row that solutions (n, r) make.
+
+    ``steady`` is what :func:`steady_layers` gives for the points, the same for all frequencies.
+    """
+    one, two = steady_layers(points, panels, water) if steady is None else steady
     share = (panels.variation.areas / panels.mesh.area)[:, None]
-    single, double = (share * item for item in _layers(panels, surface, given))
-    out = np.empty((len(points), surface.shape[1]), dtype=complex)
+    single, double = _layers(panels, surface, given)
+    out = one @ (share * single) - two @ (share * double)
+    green = WaveGreen.of(water, omega, panels.reach(points), panels.lowest)
+    level = _in_surface(points)
     for start in range(0, len(points), _BATCH):
-        some = points[start : start + _BATCH]
-        level = np.concatenate([some, np.zeros((len(some), 1))], axis=1)
-        of_single, of_double = engine.evaluate(
-            level, full, free_surface=0.0, water_depth=water.depth, wavenumber=k,
-            adjoint_double_layer=False, diagonal_term_in_double_layer=False,
-        )  # fmt: skip
-        out[start : start + _BATCH] = of_single @ single - of_double @ double
+        some = slice(start, start + _BATCH)
+        of_single, of_double = green.layers(level[some], panels.wave_panels)
+        out[some] += of_single @ single - of_double @ double
     return np.asarray(1j * omega / water.gravity * out)
+
+
+def steady_layers(points: Array, panels: MeshPanels, water: Water) -> tuple[Array, Array]:
+    """Return single and double layer (p, n) of 1/r and its mirrors at points (p, 2) of the surface."""
+    return panels.even_rankine(_in_surface(points), water.depth)
+
+
+def _in_surface(points: Array) -> Array:
+    return np.concatenate([points, np.zeros((len(points), 1))], axis=1)

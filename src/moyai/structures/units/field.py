@@ -14,8 +14,9 @@ from numpy.typing import NDArray
 from moyai.core.arrays import Array, ComplexArray, IntArray
 from moyai.core.progress import Progress, silent
 from moyai.core.store import DatasetStore, key_of
+from moyai.core.version import VERSION
 from moyai.structures.units.assembly import RowAtLevel
-from moyai.structures.units.bem import elevation_at, engine_version, given_flow
+from moyai.structures.units.bem import elevation_at, engine_version, given_flow, steady_layers
 from moyai.structures.units.hydrodynamics import RowHydrodynamics
 from moyai.structures.units.mesh import waterplane
 from moyai.structures.units.model import MapArea
@@ -90,9 +91,10 @@ def wave_field(
     panels, water = hydro.panels, hydro.water
     assert panels is not None, "a file holds no panels"
     base = key_of(
-        engine_version(), panels.mesh.corners, wet, hydro.centres, panels.gap_damping, hydro.headings,
+        VERSION, engine_version(), panels.mesh.corners, wet, hydro.centres, panels.gap_damping, hydro.headings,
         (water.depth, water.density, water.gravity),
     )  # fmt: skip
+    steady = None
     for index, solution in enumerate(hydro.solutions):
         progress("waves around the row", index, len(hydro.solutions))
         key = key_of(base, solution.omega, "field")
@@ -102,7 +104,8 @@ def wave_field(
         else:
             surface = np.concatenate([solution.radiation, solution.diffraction], axis=1)
             given = given_flow(panels, water, solution.omega, solution.wave_number, hydro.headings)
-            waves = elevation_at(wet, panels, water, solution.omega, solution.wave_number, surface, given)
+            steady = steady_layers(wet, panels, water) if steady is None else steady
+            waves = elevation_at(wet, panels, water, solution.omega, surface, given, steady)
             if store is not None:
                 store.put(key, _kept(waves))
         count = solution.radiation.shape[1]

@@ -135,7 +135,7 @@ def _rule(points: int) -> tuple[Array, Array]:
     return share, np.stack([u, v, 0.25 * np.outer(weight, weight).ravel()], axis=1)
 
 
-def _points(corners: Array, points: int) -> tuple[Array, Array]:
+def gauss_points(corners: Array, points: int) -> tuple[Array, Array]:
     """Return points (n, p, 3) on panels and their areas (n, p)."""
     share, place = _rule(points)
     a, b, c, d = (corners[:, None, index] for index in range(4))
@@ -148,7 +148,7 @@ def _points(corners: Array, points: int) -> tuple[Array, Array]:
 
 def _moments(mesh: PanelMesh, frame: Array) -> Array:
     """Return the integrals of s, t, s^2, t^2 over every panel (4, n)."""
-    point, area = _points(mesh.corners, _OF_MOMENTS)
+    point, area = gauss_points(mesh.corners, _OF_MOMENTS)
     local = np.einsum("nkx,npx->knp", frame, point - mesh.centre[:, None])
     return np.asarray(np.einsum("knp,np->kn", np.concatenate([local, local**2]), area))
 
@@ -193,10 +193,19 @@ def _layers(
                 double[3, row, panel] += two * t * t
 
 
+def images_of(points: Array, depth: float) -> list[tuple[Array, int]]:
+    """Return points (p, 3), 1, and their mirrors in the surface and in a bed at a depth [m], -1."""
+    mirrored = points * np.array([1.0, 1.0, -1.0])
+    images = [(points, 1), (mirrored, -1)]
+    if np.isfinite(depth):
+        images.append((mirrored - np.array([0.0, 0.0, 2.0 * depth]), -1))
+    return images
+
+
 def rankine_terms(
     mesh: PanelMesh, part: IntArray, found: Variation, depth: float, constant: Callable[[Array], tuple[Array, Array]]
 ) -> tuple[Array, Array]:
-    """Return what is added to single and double layer (q, n) on a part once areas are used [eq:units-rankine].
+    """Return single and double layer (q, n) of 1/r and its mirrors on a part of the panels [eq:units-rankine].
 
     Parameters
     ----------
@@ -214,28 +223,22 @@ def rankine_terms(
     tuple of ndarray (q, n)
         Of the source, its mirror in the surface and that in the bed.
     """
-    rules = [_points(mesh.corners, points) for points, _ in _RULES]
+    rules = [gauss_points(mesh.corners, points) for points, _ in _RULES]
     near = np.array([limit for _, limit in _RULES])
     radius = np.linalg.norm(mesh.corners - mesh.centre[:, None], axis=2).max(axis=1)
     places, areas = tuple(item[0] for item in rules), tuple(item[1] for item in rules)
     transposed = [slope.T.tocsr() for slope in found.slopes]
-    rest = 1.0 - found.areas / mesh.area
     out = np.empty((2, len(part), mesh.count))
     for start in range(0, len(part), _ROWS):
         own = part[start : start + _ROWS]
-        target = mesh.centre[own]
-        mirrored = target * np.array([1.0, 1.0, -1.0])
-        images = [(target, 1), (mirrored, -1)]
-        if np.isfinite(depth):
-            images.append((mirrored - np.array([0.0, 0.0, 2.0 * depth]), -1))
         layers = np.zeros((2, 4, len(own), mesh.count))
         even = np.zeros((2, len(own), mesh.count))
-        for point, image in images:
+        for point, image in images_of(mesh.centre[own], depth):
             _layers(
                 point, image, mesh.centre, mesh.normal, found.frame, radius, own, near, places, areas, *layers
             )  # fmt: skip
             even += constant(point)
-        total = even * rest
+        total = even
         for moments, slope in zip(layers.swapaxes(0, 1), transposed):
             for number in range(2):
                 total[number] -= (slope @ moments[number].T).T / (4.0 * np.pi)
