@@ -13,6 +13,8 @@ from moyai.core.progress import Progress, silent
 
 #: Seconds between two looks for Ctrl-C while the parts report nothing.
 _LOOK = 0.1
+#: Items a core that are done before they are taken.
+_AHEAD = 4
 Item = TypeVar("Item")
 Found = TypeVar("Found")
 
@@ -163,7 +165,7 @@ def one_after_the_other(
 ) -> Iterator[Found]:
     """Yield what ``work`` gives for every item, in their order, so many items at a time as there are cores.
 
-    A run that is stopped keeps what was yielded before.
+    What ended before a run is stopped, or before an item fails, is yielded; then the exception continues.
 
     Parameters
     ----------
@@ -175,12 +177,32 @@ def one_after_the_other(
     progress : Progress
         Called with the number of items that are done.
     """
-    size = threads()
     progress(words, 0, len(items))
-    for first in range(0, len(items), size):
-        for number, found in enumerate(each_at_once(work, items[first : first + size], progress), first + 1):
-            yield found
+    if len(items) < 2 or threads() < 2:
+        for number, item in enumerate(items, 1):
+            yield work(item, progress)
             progress(words, number, len(items))
+        return
+    # what is not taken yet is held: not all of many
+    size = _AHEAD * threads()
+    for first in range(0, len(items), size):
+        found: dict[int, Found] = {}
+        failed: BaseException | None = None
+
+        def one(number: int, heard: Progress, first: int = first, found: dict[int, Found] = found) -> None:
+            found[number] = work(items[first + number], heard)
+            heard(words, first + len(found), len(items))
+
+        try:
+            at_once(one, min(size, len(items) - first), progress)
+        except BaseException as error:
+            failed = error
+        for number in range(len(found)):
+            if number not in found:
+                break
+            yield found[number]
+        if failed is not None:
+            raise failed
 
 
 def each_counted(

@@ -29,8 +29,12 @@ def displacement(motion: Array, arm: Array, bend: float = 1.0) -> Array:
     Turns count to second order: a unit that pitches draws its ends in [eq:units-turned]; ``bend`` of 0 leaves it out.
     """
     turn = motion[..., 3:]
-    first = np.cross(turn, arm)
-    return np.asarray(motion[..., :3] + first + 0.5 * bend * np.cross(turn, first))
+    moved = motion[..., :3] + turn @ cross_matrix(arm)
+    if bend:
+        # w x (w x r) = w (w . r) - r w^2
+        moved += (0.5 * bend * (turn @ arm))[..., None] * turn
+        moved -= (0.5 * bend * np.einsum("...i,...i->...", turn, turn))[..., None] * arm
+    return np.asarray(moved)
 
 
 def hold_together(joints: tuple[UnitJoint, ...], pair: tuple[int, int]) -> bool:

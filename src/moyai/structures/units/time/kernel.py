@@ -10,8 +10,10 @@ from typing import Any
 
 import numpy as np
 
+from moyai.core.arrays import Array, ComplexArray
 from moyai.core.compiled import njit
 from moyai.mooring.space_kernel import space_line_force
+from moyai.sea.vector_kernel import REORDER
 from moyai.structures.units.links import SHORTEST
 
 RUNNING, DIVERGED, UNSETTLED = 0, 1, 2
@@ -21,6 +23,12 @@ _SETTLED = 1e-8
 _AT_REST = 1e-4
 #: Share of the largest motion that an elongation may miss, change of its derivative within a pass of the step
 _STRAIGHT, _DIRECTION = 1e-10, 1e-5
+
+
+def side_by_side(residues: ComplexArray) -> Array:
+    """Return residues (k, i, r) as the kernel takes them (i, 2 k r): the force is their real part times the states."""
+    rows = residues.transpose(1, 0, 2)
+    return np.ascontiguousarray(np.stack([rows.real, -rows.imag], axis=-1).reshape(rows.shape[0], -1))
 
 
 @njit(cache=True, error_model="numpy")
@@ -174,6 +182,16 @@ def _solve_joints(
     return False
 
 
+@njit(cache=True, error_model="numpy", fastmath=REORDER)
+def _of_memory(residues: Any, states: Any, out: Any) -> None:
+    """Write the forces (i,) of the memory: residues (i, s) times states (s,), real and imaginary parts side by side."""
+    for i in range(out.size):
+        total = 0.0
+        for s in range(states.size):
+            total += residues[i, s] * states[s]
+        out[i] = total
+
+
 @njit(cache=True, error_model="numpy", pointer=True)
 def march(
     y: Any, v: Any, a: Any, z: Any, first: int, steps: int, h: float, load: Any, body: Any, memory: Any, held: Any,
@@ -193,9 +211,10 @@ def march(
         Inverse of M + h/2 (C + D) + h^2/4 K; damping C + D with the part D of the memory; stiffness K; basis Z (m, r);
         tangent stiffness of the lines that K holds (r, r); force that the lines balance at rest (m,).
     memory : tuple
-        Factors of the states and of the velocities at both ends of the step (k,); residues (k, r, r).
-    held : ndarray (k, c, r), complex
-        Residues of the loads of the constraints.
+        Factors of the states and of the velocities at both ends of the step (k,); residues (r, 2 k r), as
+        :func:`side_by_side` gives them.
+    held : ndarray (c, 2 k r)
+        Residues of the loads of the constraints, likewise.
     lines : tuple
         Body of every line, parameters, index, nodes, lookup, last tensions, what lines push beyond their tangent at the
         last three steps (3, r), the newest first.
@@ -214,7 +233,7 @@ def march(
     edges, rough, water = drag
     pairs, arms, bends, axes, spans, xs, fs, ends, dashpots, sides = joints
     r, k, m, j = y.size, decay.size, basis.shape[0], spans.size
-    c = held.shape[1]
+    states, constraint = z.reshape(-1).view(np.float64), np.empty(held.shape[0])
     history, right, free, new = np.empty(r), np.empty(r), np.empty(r), np.empty(r)
     y_p, v_p, pushed, former = np.empty(r), np.empty(r), np.zeros(r), np.empty(r)
     ahead, q, pull, tension = np.empty(r), np.empty(m), np.empty(m), np.zeros(parameters.shape[0])
@@ -231,15 +250,10 @@ def march(
         for i in range(r):
             y_p[i] = y[i] + h * v[i] + 0.25 * h * h * a[i]
             v_p[i] = v[i] + 0.5 * h * a[i]
-            history[i] = 0.0
         for p in range(k):
             for i in range(r):
                 z[p, i] = decay[p] * z[p, i] + before[p] * v[i]
-            for i in range(r):
-                total = 0.0
-                for n in range(r):
-                    total += residues[p, i, n].real * z[p, n].real - residues[p, i, n].imag * z[p, n].imag
-                history[i] += total
+        _of_memory(residues, states, history)
         for i in range(r):
             total = load[number, i] - history[i]
             for n in range(r):
@@ -340,12 +354,8 @@ def march(
             for i in range(r):
                 z[p, i] += after[p] * v[i]
         saved[0][number], saved[1][number], saved[2][number] = y, v, a
-        for i in range(c):
-            total = 0.0
-            for p in range(k):
-                for n in range(r):
-                    total += held[p, i, n].real * z[p, n].real - held[p, i, n].imag * z[p, n].imag
-            saved[3][number, i] = total
+        _of_memory(held, states, constraint)
+        saved[3][number] = constraint
         if has_lines:
             saved[4][number] = pull
             saved[5][number] = tension

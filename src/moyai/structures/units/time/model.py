@@ -34,6 +34,8 @@ SECONDS_BETWEEN_LOOKS = 0.3
 STEPS_BEFORE_TABLES, WIDENED, LEAST_WIDENED = 4096, 0.3, 0.01
 #: Accuracy of the tables over the tension
 TABLE_TOLERANCE = 1e-4
+#: Times whose loads of constraints are found at once
+_ROWS = 4096
 
 
 @dataclass(frozen=True, eq=False)
@@ -156,10 +158,11 @@ class RowInTime:
         at, free = self.at, self.at.free
         poles = self.memory.poles
         decay, before, after = step_weights(poles, step)
-        reduced = np.ascontiguousarray(np.einsum("mr,kmn,ns->krs", free, self.memory.residues, free))
+        reduced = np.einsum("mr,kmn,ns->krs", free, self.memory.residues, free)
         g = at.constraint
         share = np.linalg.solve(g @ g.T, g) if len(g) else np.zeros((0, at.size))
-        held = np.ascontiguousarray(np.einsum("cm,kmn,ns->kcs", share, self.memory.residues, free))
+        held = np.einsum("cm,kmn,ns->kcs", share, self.memory.residues, free)
+        memory, of_held = (decay, before, after, kernel.side_by_side(reduced)), kernel.side_by_side(held)
         mass = free.T @ self.mass @ free
         damping = free.T @ self.damping @ free + np.einsum("k,krs->rs", after, reduced).real
         tangent = free.T @ at.line_stiffness(self.position) @ free
@@ -192,9 +195,8 @@ class RowInTime:
                 steps = min(steps, STEPS_BEFORE_TABLES - first)
             elif first == STEPS_BEFORE_TABLES:
                 lines = self._lines(saved[0][: first + 1] @ free.T)
-            memory = (decay, before, after, reduced)
             code, good = kernel.march(
-                y, v, a, z, first, steps, step, given, body, memory, held, (*lines, *so_far), joints, drag, limit, saved
+                y, v, a, z, first, steps, step, given, body, memory, of_held, (*lines, *so_far), joints, drag, limit, saved
             )
             return code, good
 
@@ -294,20 +296,28 @@ class RowRun:
     @cached_property
     def held(self) -> Array:
         """Loads of the constraints (n, c) [eq:units-held], pulling positive."""
+        out = np.zeros((len(self.time), len(self.model.at.constraint)))
+        if out.shape[1]:
+            # arrays over a whole run would go through memory ten times
+            for start in range(0, len(out), _ROWS):
+                rows = slice(start, start + _ROWS)
+                out[rows] = held_load(self.model.at, self._unbalanced(rows)) - self.held_memory[rows]
+        return out
+
+    def _unbalanced(self, rows: slice) -> Array:
+        """Return the forces (n, m) that constraints and memory balance at some times."""
         model, free = self.model, self.model.at.free
-        if not len(model.at.constraint):
-            return np.zeros((len(self.time), 0))
-        left = self.load - self.position @ model.stiffness
-        left -= self.acceleration @ (free.T @ model.mass) + self.velocity @ (free.T @ model.damping)
+        left = self.load[rows] - self.position[rows] @ model.stiffness
+        left -= self.acceleration[rows] @ (free.T @ model.mass) + self.velocity[rows] @ (free.T @ model.damping)
         if model.at.line_names:
-            left += self.line_force - model.balanced
+            left += self.line_force[rows] - model.balanced
         if model.eddies is not None:
             drag = model.eddies.drag
-            measure = self.velocity @ (free.T @ drag.directions.T) - self.water[: len(self.time)]
+            measure = self.velocity[rows] @ (free.T @ drag.directions.T) - self.water[: len(self.time)][rows]
             left -= (drag.coefficients * np.abs(measure) * measure) @ drag.directions
         for number, link in enumerate(model.at.links):
-            left -= self.link_force[:, [number]] * link.along(self.position)
-        return np.asarray(held_load(model.at, left) - self.held_memory)
+            left -= self.link_force[rows, number, None] * link.along(self.position[rows])
+        return left
 
     def relative(self, joint: UnitJoint) -> Array:
         """Return the relative motion (n, 6) of a connector."""
