@@ -31,6 +31,8 @@ _SERIES_FROM, _SERIES = 0.5, 26
 _FADED = 40.0
 _NODES, _WEIGHTS = np.polynomial.legendre.leggauss(16)
 _TWENTY, _OF_TWENTY = np.polynomial.legendre.leggauss(20)
+#: Depth, times the wave number, beyond which the wave of infinite depth has faded to rounding
+_DEEP = 30.0
 #: Distance from the axis at which functions with a logarithm there are taken on it, times the wave number
 _ON_AXIS = 1e-7
 
@@ -119,9 +121,9 @@ def _deep_table(r: Array, down: Array, surface: float) -> Array:
     y = (surface * down)[None, :]
     apart = np.hypot(x, y)
     shape, slope = _moments(x, y)
-    value = -np.exp(-y) * (0.5 * np.pi * (special.struve(0, x) + special.y0(x)) + shape)
+    value = -0.5 * np.pi * np.exp(-y) * (special.struve(0, x) + special.y0(x)) - shape
     lift = 1.0 - 0.5 * np.pi * (special.struve(1, x) + special.y1(x))
-    by_x = y / (apart * x) - np.exp(-y) * (lift + slope / x)
+    by_x = y / (apart * x) - np.exp(-y) * lift - slope / x
     by_x[r == 0.0] = 0.0
     by_y = -1.0 / apart - value
     # x / r^3 - L_x
@@ -131,15 +133,24 @@ def _deep_table(r: Array, down: Array, surface: float) -> Array:
 
 
 def _moments(x: Array, y: Array) -> tuple[Array, Array]:
-    """Return the integrals of e^t / sqrt(x^2 + t^2) and of e^t t / sqrt(x^2 + t^2) over 0 < t < y."""
+    """Return the integrals of e^{t - y} / sqrt(x^2 + t^2) and of e^{t - y} t / sqrt(x^2 + t^2) over 0 < t < y."""
     x, y = np.broadcast_arrays(x, y)
     out = np.empty((2, *x.shape))
-    wide = x >= y
-    t = 0.5 * y[wide][:, None] * (_TWENTY + 1.0)
-    part = 0.5 * y[wide][:, None] * _OF_TWENTY * np.exp(t) / np.hypot(x[wide][:, None], t)
-    out[0, wide], out[1, wide] = part.sum(axis=1), (part * t).sum(axis=1)
+    deep, wide = y > _DEEP, x >= y
+    # of deep ones what lies further up has fallen below rounding
+    pieces = np.concatenate([[0.0], np.geomspace(2.0, _DEEP, 4)])
+    back = (0.5 * np.diff(pieces)[:, None] * (_TWENTY + 1.0) + pieces[:-1, None]).ravel()
+    shares = (0.5 * np.diff(pieces)[:, None] * _OF_TWENTY).ravel() * np.exp(-back)
+    half = 0.5 * y[wide & ~deep][:, None]
+    for chosen, t, weight in (
+        (deep, y[deep][:, None] - back, shares),
+        (wide & ~deep, half * (_TWENTY + 1.0), half * _OF_TWENTY * np.exp(half * (_TWENTY - 1.0))),
+    ):
+        part = weight / np.hypot(x[chosen][:, None], t)
+        out[0, chosen], out[1, chosen] = part.sum(axis=1), (part * t).sum(axis=1)
     # recursion from moment to moment, stable where y is the larger
-    a, b = x[~wide], y[~wide]
+    left = ~(deep | wide)
+    a, b = x[left], y[left]
     apart = np.hypot(a, b)
     before, now = np.log((b + apart) / a), b * b / (apart + a)
     shape, slope, factorial, power = before.copy(), now.copy(), 1.0, np.ones_like(b)
@@ -149,7 +160,7 @@ def _moments(x: Array, y: Array) -> tuple[Array, Array]:
         shape += now / factorial
         before, now = now, (power * apart - n * a * a * before) / (n + 1)
         slope += now / factorial
-    out[0, ~wide], out[1, ~wide] = shape, slope
+    out[0, left], out[1, left] = shape * np.exp(-b), slope * np.exp(-b)
     return out[0], out[1]
 
 
