@@ -12,6 +12,7 @@ import numpy as np
 
 from moyai.core.errors import InputError
 from moyai.core.files import partial_file
+from moyai.core.netcdf_writer import can_write, write_tree
 from moyai.core.results import join_complex, split_complex
 
 if TYPE_CHECKING:
@@ -60,5 +61,11 @@ class DatasetStore:
 
     def put(self, key: str, dataset: xr.Dataset) -> None:
         """Keep a dataset; a folder that cannot be written keeps nothing and harms nothing."""
+        import xarray as xr
+
+        tree = xr.DataTree(split_complex(dataset))
         with suppress(InputError), partial_file(self.directory / f"{key}.nc", size=dataset.nbytes) as partial:
-            split_complex(dataset).to_netcdf(partial, engine="h5netcdf")
+            if can_write(tree):
+                write_tree(tree, partial)
+            else:
+                tree.to_netcdf(partial, engine="h5netcdf")

@@ -7,6 +7,7 @@ a box; the one here is some 1e-5 off.
 
 from __future__ import annotations
 
+import logging
 import math
 from contextlib import suppress
 from functools import lru_cache
@@ -24,10 +25,23 @@ _PLACES = np.concatenate([np.linspace(1e-6, 6.0, 240), np.geomspace(6.05, 60.0, 
 _TURNS = 60
 
 
+def capytaine_mesh(corners: Array) -> Any:
+    """Return panels (n, 4, 3) as a mesh of Capytaine; triangles repeat their first corner."""
+    from capytaine.meshes.meshes import Mesh
+
+    count = len(corners)
+    faces = np.arange(4 * count).reshape(count, 4)
+    repeated = np.linalg.norm(corners[:, 3] - corners[:, 0], axis=1) < 1e-12
+    faces[repeated, 3] = faces[repeated, 0]
+    return Mesh(corners.reshape(-1, 3), faces, auto_clean=False, auto_check=False)
+
+
 @lru_cache(maxsize=1)
 def closer_green_function() -> Any:
     """Return Capytaine's Green function with its own sum of exponentials."""
     from capytaine.green_functions.delhommeau import Delhommeau
+
+    logging.getLogger("capytaine").setLevel(logging.ERROR)
 
     class Closer(Delhommeau):  # type: ignore[misc, unused-ignore]
         """The Green function with its own sum of exponentials."""

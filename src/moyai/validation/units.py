@@ -9,7 +9,6 @@ import math
 from collections.abc import Callable
 from dataclasses import replace
 from functools import cache
-from importlib.util import find_spec
 from itertools import pairwise
 
 import numpy as np
@@ -311,7 +310,7 @@ def _through(index: int) -> Callable[[], float]:
 
 
 _MESH = "order 4/3 in the size of the panels"
-_CASES: tuple[ValidationCase, ...] = (
+CASES: tuple[ValidationCase, ...] = (
     ValidationCase(
         "units: a box cut in two halves with a rigid connector, motions", "identity: the box in one piece",
         lambda: 1.0 + rigid_halves(), 1.0, 1e-8, note="rounding of the solver",
@@ -390,5 +389,3 @@ _CASES: tuple[ValidationCase, ...] = (
         "units: K around a column of k a = 1", "MacCamy and Fuchs 1954, exact", column, 0.0, 0.01, False, _MESH
     ),
 )  # fmt: skip
-
-CASES: tuple[ValidationCase, ...] = _CASES if find_spec("capytaine") is not None else ()

@@ -302,7 +302,6 @@ def test_random_moves_of_sliders_give_the_numbers_of_fresh_runs(
 @pytest.mark.slow
 def test_rows_of_units_are_drawn_at_rest_then_in_waves_with_kept_coefficients(tmp_path: Path, monkeypatch: Any) -> None:
     """What does not touch the water takes the coefficients that are kept; the numbers are those of a fresh run."""
-    pytest.importorskip("capytaine", reason="Capytaine is not installed")
     from moyai.structures.units import hydrodynamics
 
     text = template("units").replace("panel_size: 2 m", "panel_size: 4.5 m").replace("count: 8", "count: 3")

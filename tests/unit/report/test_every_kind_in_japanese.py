@@ -160,8 +160,6 @@ def test_a_network_that_snaps() -> None:
 @pytest.mark.slow
 @pytest.mark.parametrize("kind", TEMPLATES)
 def test_templates(kind: str) -> None:
-    if kind == "units":
-        pytest.importorskip("capytaine")
     assert_japanese(load_case(template(kind)), 250, kind)
 
 
@@ -175,8 +173,6 @@ def test_every_example_is_held() -> None:
 @pytest.mark.slow
 @pytest.mark.parametrize("path", CASES, ids=lambda path: f"{path.parent.name}-{path.stem}")
 def test_examples(path: Path) -> None:
-    if path.parent.name == "units":
-        pytest.importorskip("capytaine")
     # the plain net has few notices
     least = 150 if path.stem == "net_in_current" else 250
     # the templates of all kinds are held on paper

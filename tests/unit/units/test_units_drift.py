@@ -34,7 +34,6 @@ def _solved(size: float, heading: float) -> tuple[NearField, RowHydrodynamics]:
 @pytest.mark.slow
 def test_a_hull_in_still_water_is_pushed_nowhere() -> None:
     """Whatever its place: what its own weight and buoyancy do to second order adds up to nothing."""
-    pytest.importorskip("capytaine", reason="Capytaine is not installed")
     field, panels = _panels(2.5, 1)
     solution = solve_frequency(panels, WATER, 1.2, np.zeros(1))
     still = replace(

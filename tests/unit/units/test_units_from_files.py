@@ -3,8 +3,6 @@
 import numpy as np
 import pytest
 
-pytest.importorskip("capytaine", reason="Capytaine is not installed")
-
 from moyai.case.builder import build
 from moyai.case.reader import case_of
 from moyai.case.yaml_reader import parse_yaml

@@ -1,10 +1,6 @@
 """Lines of a row in time, from tables and exactly, and coefficients between their frequencies."""
 
 import numpy as np
-import pytest
-
-pytest.importorskip("capytaine", reason="Capytaine is not installed")
-
 from test_units_links import memory_of
 from test_units_time import at_rest, moored
 

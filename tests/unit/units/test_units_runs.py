@@ -7,8 +7,6 @@ import pytest
 from japanese import compared
 from renamed import unmissed
 
-pytest.importorskip("capytaine", reason="Capytaine is not installed")
-
 import moyai
 from moyai.case.builder import build
 from moyai.case.reader import case_of

@@ -7,8 +7,6 @@ import numpy as np
 import pytest
 import xarray as xr
 
-pytest.importorskip("capytaine", reason="Capytaine is not installed")
-
 from moyai.core.progress import silent
 from moyai.flexible import BarType
 from moyai.mooring import LineType, Segment, SpringLine

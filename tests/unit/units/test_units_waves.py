@@ -5,10 +5,8 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-pytest.importorskip("capytaine", reason="Capytaine is not installed")
-
 from moyai.sea.environment import Environment, Wind
-from moyai.structures.units import bem, green
+from moyai.structures.units import bem
 from moyai.structures.units.assembly import steady_load, steady_position
 from moyai.structures.units.bem import elevation_at, far_amplitudes, given_flow, panels_of, solve_frequency
 from moyai.structures.units.hydrodynamics import solve_row
@@ -188,26 +186,6 @@ def test_wind_is_borne_by_the_lines():
     pull = at.line_force(rest.position)
     assert pull[0] + pull[6] == pytest.approx(-2.0 * across, rel=1e-6)
     assert rest.position[0] > 0.0
-
-
-def test_without_capytaine_the_message_says_how_to_get_it(monkeypatch):
-    import builtins
-
-    from moyai.core.errors import InputError
-
-    real = builtins.__import__
-
-    def absent(name, *rest):
-        if name.startswith("capytaine"):
-            raise ImportError(name)
-        return real(name, *rest)
-
-    green.green_function.cache_clear()
-    monkeypatch.setattr(builtins, "__import__", absent)
-    with pytest.raises(InputError, match="Capytaine 3"):
-        green.green_function()
-    monkeypatch.undo()
-    green.green_function.cache_clear()
 
 
 def test_a_machine_without_memory_is_reported_before_it_starts(box, monkeypatch):

@@ -1,4 +1,4 @@
-"""Radiation and diffraction of all units together, by panels and Green's identity; integrals of 1/r by Capytaine.
+"""Radiation and diffraction of all units together, by panels and Green's identity.
 
 Time factor e^{-i omega t}. The potential on the panels follows from its normal velocity [eq:units-green]: that of the
 hull, none on lids inside of hulls; the surface in a gap may be damped [eq:units-gap-lid]. All motions of all units and
@@ -10,7 +10,6 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass, replace
 from functools import cached_property
-from typing import Any
 
 import numpy as np
 from scipy.linalg import lu_factor, lu_solve
@@ -19,8 +18,8 @@ from moyai.core.arrays import Array, ComplexArray, IntArray
 from moyai.core.errors import InputError
 from moyai.sea.dispersion import wave_number
 from moyai.sea.water import Water
-from moyai.structures.units.green import green_function
 from moyai.structures.units.mesh import GAP, HULL, PanelMesh
+from moyai.structures.units.rankine_kernel import rankine_layers
 from moyai.structures.units.symmetry import Symmetry, symmetry_of
 from moyai.structures.units.variation import (
     Variation,
@@ -40,18 +39,8 @@ LEAST_DEPTH = 0.1
 DIRECTIONS = 180
 #: Points whose field is evaluated at once
 _BATCH = 500
-#: Points a direction on panels near the mirror of a source in the surface
+#: Points a direction on panels near the mirror of a source in the surface, and on those far from a source
 _POINTS = 4
-
-
-def engine_version() -> str:
-    """Return the version of Capytaine."""
-    from importlib.metadata import PackageNotFoundError, version
-
-    try:
-        return version("capytaine")
-    except PackageNotFoundError:
-        return "absent"
 
 
 @dataclass(frozen=True, eq=False)
@@ -64,7 +53,7 @@ class MeshPanels:
     symmetry: Symmetry
     #: epsilon of the lids in the gaps.
     gap_damping: float = 0.0
-    #: Whether potentials are taken as even over a panel, as Capytaine does: for comparisons.
+    #: Whether potentials are taken as even over a panel, as other programs do: for comparisons.
     even: bool = False
 
     @cached_property
@@ -73,11 +62,16 @@ class MeshPanels:
         return even_variation(self.mesh) if self.even else variation_of(self.mesh)
 
     @cached_property
+    def _gauss(self) -> tuple[Array, Array, Array]:
+        """Radii (n,) [m], points (n, p, 3) on the panels and their areas (n, p)."""
+        radius = np.linalg.norm(self.mesh.corners - self.mesh.centre[:, None], axis=2).max(axis=1)
+        return radius, *gauss_points(self.mesh.corners, _POINTS)
+
+    @cached_property
     def wave_panels(self) -> tuple[Array, ...]:
         """The panels as :func:`moyai.structures.units.wave_green_kernel.wave_layers` takes them."""
         mesh, areas = self.mesh, self.variation.areas
-        points, parts = gauss_points(mesh.corners, _POINTS)
-        radius = np.linalg.norm(mesh.corners - mesh.centre[:, None], axis=2).max(axis=1)
+        radius, points, parts = self._gauss
         given = mesh.centre, mesh.normal, areas, radius, points, parts * (areas / mesh.area)[:, None]
         return tuple(np.ascontiguousarray(item) for item in given)
 
@@ -108,15 +102,11 @@ class MeshPanels:
         return sum(one for one, _ in found), sum(two for _, two in found)  # type: ignore[return-value]
 
     def _even(self, points: Array) -> tuple[Array, Array]:
-        found: tuple[Array, Array] = green_function().evaluate_rankine_only(
-            np.ascontiguousarray(points), self._engine_mesh, adjoint_double_layer=False,
-            diagonal_term_in_double_layer=False,
-        )  # fmt: skip
-        return found
-
-    @cached_property
-    def _engine_mesh(self) -> Any:
-        return capytaine_mesh(self.mesh.corners)
+        mesh = self.mesh
+        given = tuple(np.ascontiguousarray(item) for item in (mesh.corners, mesh.centre, mesh.normal, *self._gauss))
+        single, double = np.zeros((2, len(points), mesh.count))
+        rankine_layers(np.ascontiguousarray(points), given, single, double)
+        return single, double
 
 
 def panels_of(mesh: PanelMesh, centres: Array, gap_damping: float = 0.0) -> MeshPanels:
@@ -300,17 +290,6 @@ def _sinh_profile(z: Array, k: float, depth: float) -> Array:
     if math.isinf(depth):
         return np.asarray(np.exp(k * z))
     return np.asarray((np.exp(k * z) - np.exp(-k * (z + 2.0 * depth))) / (1.0 + math.exp(-2.0 * k * depth)))
-
-
-def capytaine_mesh(corners: Array) -> Any:
-    """Return panels (n, 4, 3) as a mesh of Capytaine; triangles repeat their first corner."""
-    from capytaine.meshes.meshes import Mesh
-
-    count = len(corners)
-    faces = np.arange(4 * count).reshape(count, 4)
-    repeated = np.linalg.norm(corners[:, 3] - corners[:, 0], axis=1) < 1e-12
-    faces[repeated, 3] = faces[repeated, 0]
-    return Mesh(corners.reshape(-1, 3), faces, auto_clean=False, auto_check=False)
 
 
 def _layers_on_part(panels: MeshPanels, water: Water, omega: float) -> tuple[ComplexArray, ComplexArray]:

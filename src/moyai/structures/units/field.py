@@ -16,8 +16,8 @@ from moyai.core.progress import Progress, silent
 from moyai.core.store import DatasetStore, key_of
 from moyai.core.version import VERSION
 from moyai.structures.units.assembly import RowAtLevel
-from moyai.structures.units.bem import elevation_at, engine_version, given_flow, steady_layers
-from moyai.structures.units.hydrodynamics import RowHydrodynamics
+from moyai.structures.units.bem import elevation_at, given_flow, steady_layers
+from moyai.structures.units.hydrodynamics import METHOD, RowHydrodynamics
 from moyai.structures.units.mesh import waterplane
 from moyai.structures.units.model import MapArea
 
@@ -91,7 +91,7 @@ def wave_field(
     panels, water = hydro.panels, hydro.water
     assert panels is not None, "a file holds no panels"
     base = key_of(
-        VERSION, engine_version(), panels.mesh.corners, wet, hydro.centres, panels.gap_damping, hydro.headings,
+        VERSION, METHOD, panels.mesh.corners, wet, hydro.centres, panels.gap_damping, hydro.headings,
         (water.depth, water.density, water.gravity),
     )  # fmt: skip
     steady = None

@@ -24,7 +24,6 @@ from moyai.structures.units.bem import (
     Solution,
     check_memory,
     directions,
-    engine_version,
     solve_frequency,
 )
 
@@ -36,6 +35,8 @@ SYMMETRY, HASKIND, ENERGY = 0.1, 0.05, 0.05
 #: Solutions that this process read last, oldest first, and their size
 _RECENT: dict[str, Solution] = {}
 RECENT_BYTES = 200_000_000
+#: How coefficients are computed, a part of the key of what is kept: changes where numbers do
+METHOD = "exact Green function"
 
 
 @dataclass(frozen=True, eq=False)
@@ -190,7 +191,7 @@ def solve_row(
     check_memory(panels)
     solutions = []
     base = key_of(
-        VERSION, engine_version(), panels.mesh.corners, panels.mesh.part, centres, panels.gap_damping, panels.even,
+        VERSION, METHOD, panels.mesh.corners, panels.mesh.part, centres, panels.gap_damping, panels.even,
         (water.depth, water.density, water.gravity), headings, DIRECTIONS,
     )  # fmt: skip
     for index, frequency in enumerate(omega):

@@ -33,7 +33,6 @@ from moyai.structures.units.datasets import (
 )
 from moyai.structures.units.doubts import curve_notices, meeting_notices, push_notices
 from moyai.structures.units.field import map_points, wave_field
-from moyai.structures.units.green import green_function
 from moyai.structures.units.headlines import governing_seas, greatest_rolls, headlines_of
 from moyai.structures.units.hydrodynamics import RowHydrodynamics, solve_row
 from moyai.structures.units.mesh import row_mesh
@@ -151,7 +150,7 @@ def run(problem: UnitsProblem, progress: Progress = silent, *, store: DatasetSto
     Raises
     ------
     InputError
-        When the case is impossible, or Capytaine is not installed.
+        When the case is impossible.
     """
     collected = Collected()
     collected.take(_steps(problem, collected, store, progress))
@@ -169,13 +168,10 @@ def _steps(
     check_apart(problem.row)
     levels = [assemble(problem.row, environment, name, level) for name, level in environment.water_levels]
     of_file = None
-    if WITH_WAVES & set(problem.settings.analyses):
-        if problem.coefficients is None:
-            green_function()
-        else:
-            from moyai.structures.units.coefficients_file import read_row
+    if problem.coefficients is not None and WITH_WAVES & set(problem.settings.analyses):
+        from moyai.structures.units.coefficients_file import read_row
 
-            of_file = read_row(problem.coefficients)
+        of_file = read_row(problem.coefficients)
     for index, at in enumerate(levels):
         progress("water levels", index, len(levels))
         yield from _level_steps(problem, at, of_file, collected, store, progress)

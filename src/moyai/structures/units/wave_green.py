@@ -1,4 +1,4 @@
-"""What waves add to the Green function in water of any depth: exact, tabulated for one frequency [eq:units-green-waves].
+"""What waves add to the Green function in water of any depth: exact, tabulated once a frequency [eq:units-green-waves].
 
 The Green function of John (1950) is a sum of two functions of two numbers each, of the distance in plan R with z + zeta
 and with z - zeta. They are tabulated with their derivatives: from the series of eigenfunctions where R is more than
@@ -39,7 +39,7 @@ _ON_AXIS = 1e-7
 
 @dataclass(frozen=True, eq=False)
 class WaveGreen:
-    """The part of the Green function that waves make at one frequency, all but 1/r and its mirrors in surface and bed."""
+    """What waves add to the Green function at one frequency: all but 1/r and its mirrors in surface and bed."""
 
     #: omega^2 / g [1/m].
     surface_number: float

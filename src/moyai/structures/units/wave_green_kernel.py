@@ -5,8 +5,6 @@ from __future__ import annotations
 import math
 from typing import Any
 
-import numpy as np
-
 from moyai.core.compiled import njit
 
 #: Distance from the mirror of the source in the surface, times K, within which the closed form serves in place of a
@@ -69,9 +67,9 @@ def deep_wave(x: float, y: float) -> tuple[float, float, float]:
 
 @njit(cache=True, error_model="numpy")
 def _from_table(table: Any, steps: Any, x: float, y: float) -> tuple[float, float, float]:
-    """Return value and derivatives of a table (nx, ny, 4) of value, slopes and mixed derivative at x, y from its corner.
+    """Return value and derivatives at x, y from the corner of a table, by bicubic Hermite polynomials.
 
-    Bicubic Hermite polynomials.
+    It holds value, slopes and mixed derivative (nx, ny, 4).
     """
     across, up = x / steps[0], y / steps[1]
     i, j = min(int(across), table.shape[0] - 2), min(int(up), table.shape[1] - 2)
@@ -182,4 +180,6 @@ def wave_layers(target: Any, panels: Any, green: Any, single: Any, double: Any) 
             down = math.exp(-k * (zeta + 2.0 * depth)) if finite else 0.0
             far = 2.0 * math.pi * factor * own / whole * size
             single[row, n] += scale * (real + 1j * far * (up + down) * wave)
-            double[row, n] += scale * (slope + 1j * far * ((up + down) * turned * outward + k * (up - down) * wave * upward))
+            double[row, n] += scale * (
+                slope + 1j * far * ((up + down) * turned * outward + k * (up - down) * wave * upward)
+            )

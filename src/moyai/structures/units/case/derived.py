@@ -21,9 +21,10 @@ from moyai.structures.units.seas import frequencies_of, headings_of
 from moyai.structures.units.time.band import further_frequencies, memory_band
 from moyai.structures.units.time.model import STEPS_OF_WAVE
 
-#: Processor time of the Green function of two panels in finite depth [s], of one operation of the solver [s], and of a
-#: step through time over the square of the degrees of freedom [s]
-_PER_PAIR, _PER_OPERATION, _PER_STEP = 2.5e-6, 1.5e-10, 5e-8
+#: Processor time of the waves of two panels [s], of 1/r of two panels, once for all frequencies [s], of the tables of a
+#: frequency [s], of one operation of the solver [s], and of a step through time over the square of the degrees of
+#: freedom, runs with the ends of assumed damping and what is read of them included [s]
+_PER_PAIR, _PER_STEADY_PAIR, _PER_TABLE, _PER_OPERATION, _PER_STEP = 1e-7, 1.2e-6, 0.05, 1.5e-10, 1.2e-7
 
 
 def derived_numbers(case: Case) -> tuple[Number, ...]:
@@ -81,7 +82,9 @@ def _panel_numbers(level: str, at: RowAtLevel, problem: UnitsProblem) -> Iterato
         band = memory_band(omega, panels, at.water)
         solved += further_frequencies(omega, *band, problem.settings.time.memory_frequencies).size
         yield Number(group, level, "frequencies with those of the memory", float(solved))
-    seconds = solved * (mesh.count * part * _PER_PAIR + mirrors * 8.0 / 3.0 * part**3 * _PER_OPERATION)
+    pairs = mesh.count * part
+    solver = mirrors * 8.0 / 3.0 * part**3 * _PER_OPERATION
+    seconds = pairs * _PER_STEADY_PAIR + solved * (pairs * _PER_PAIR + _PER_TABLE + solver)
     if "map" in problem.settings.analyses:
         area = problem.map_area
         points = area.cells[0] * area.cells[1] + len(area.points) + (LINE_POINTS if area.line is not None else 0)

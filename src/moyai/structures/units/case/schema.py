@@ -181,7 +181,7 @@ class UnitsStructure(Block):
     coefficients_file: RowCoefficientsFile | None = Field(
         default=None,
         description="Coefficients of all units together from the files of another program, in place of the computation "
-        "by Capytaine.",
+        "by panels.",
     )
     gap_damping_lid: NonNegativeNumber = Field(
         default=0.0,

@@ -196,7 +196,22 @@ class RowInTime:
             elif first == STEPS_BEFORE_TABLES:
                 lines = self._lines(saved[0][: first + 1] @ free.T)
             code, good = kernel.march(
-                y, v, a, z, first, steps, step, given, body, memory, of_held, (*lines, *so_far), joints, drag, limit, saved
+                y,
+                v,
+                a,
+                z,
+                first,
+                steps,
+                step,
+                given,
+                body,
+                memory,
+                of_held,
+                (*lines, *so_far),
+                joints,
+                drag,
+                limit,
+                saved,
             )
             return code, good
 
