@@ -95,7 +95,7 @@ def recorded_kernels(cases: Sequence[Path]) -> list[str]:
                 running[-1][1] += took
             kernel = event.data["dispatcher"]
             function = kernel.py_func
-            if function.__module__.startswith("moyai.") and hasattr(kernel._cache, "cache_path"):
+            if function.__module__.startswith("moyai.") and getattr(kernel._cache, "cache_path", None):
                 with suppress(ValueError):
                     text = signature_text(event.data["args"])
                     found.setdefault(f"{function.__module__} {function.__name__} {text}", took - inner)

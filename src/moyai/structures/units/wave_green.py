@@ -226,7 +226,7 @@ def _path(surface: float, k: float, depth: float) -> tuple[ComplexArray, Complex
 
 
 def _series(r: Array, height: Array, sign: float, surface: float, k: float, water: Water, omega: float) -> Array:
-    """Return the function of distance in plan and height over the bed less 1/r, from eigenfunctions (r, height, 4).
+    """Return g of distance in plan and height, from eigenfunctions (r, height, 4) [eq:units-green-series].
 
     ``sign`` is that of the height with growing column number.
     """
