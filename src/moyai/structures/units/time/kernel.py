@@ -6,6 +6,7 @@ new velocity stands with the damping [eq:units-step]. Lines and connectors with 
 
 from __future__ import annotations
 
+import math
 from typing import Any
 
 import numpy as np
@@ -28,7 +29,8 @@ _STRAIGHT, _DIRECTION = 1e-10, 1e-5
 def side_by_side(residues: ComplexArray) -> Array:
     """Return residues (k, i, r) as the kernel takes them (i, 2 k r): the force is their real part times the states."""
     rows = residues.transpose(1, 0, 2)
-    return np.ascontiguousarray(np.stack([rows.real, -rows.imag], axis=-1).reshape(rows.shape[0], -1))
+    pairs = np.stack([rows.real, -rows.imag], axis=-1)
+    return np.ascontiguousarray(pairs.reshape(len(pairs), math.prod(pairs.shape[1:])))
 
 
 @njit(cache=True, error_model="numpy")
