@@ -194,7 +194,8 @@ def time_against_frequency() -> float:
 _CASES: tuple[ValidationCase, ...] = (
     ValidationCase(
         "units: coefficients of two boxes, all pairs of motions", "Capytaine's own solver, even panels in both",
-        against_capytaine, 0.0, 1e-3, False, "over the geometric mean of the diagonals",
+        against_capytaine, 0.0, 5e-3, False,
+        "over the geometric mean of the diagonals; near the surface Capytaine takes its function at centres of panels",
     ),
     ValidationCase(
         "units: two hinged boxes in head seas, motions", "generalized modes (Newman 1994) in Capytaine's own solver",

@@ -49,5 +49,5 @@ def test_a_closed_surface_holds_its_inside_in_a_whole_solid_angle():
     # normals of lids point into the hull
     outward = np.where(mesh.part == LID, -1.0, 1.0)
     for points, whole in ((inside, 1.0), (outside, 0.0)):
-        total = panels._even(points)[1] @ outward
+        total = panels.even_layers(points)[1] @ outward
         assert np.abs(np.abs(total) - whole).max() < 1e-7

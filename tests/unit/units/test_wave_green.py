@@ -1,6 +1,7 @@
 """The exact Green function of waves: two representations, its differential equation and conditions, its tables."""
 
 import math
+from dataclasses import replace
 
 import numpy as np
 import pytest
@@ -9,6 +10,9 @@ from scipy import integrate, special
 from moyai.sea.dispersion import wave_number
 from moyai.sea.water import Water
 from moyai.structures.units import wave_green
+from moyai.structures.units.bem import panels_of
+from moyai.structures.units.mesh import LID, PanelMesh
+from moyai.structures.units.variation import log_terms
 from moyai.structures.units.wave_green import WaveGreen
 from moyai.structures.units.wave_green_kernel import deep_wave
 
@@ -58,13 +62,11 @@ def green(given, source, points):
     """Return 4 pi G at points (n, 3), 1/r and its mirrors with it, by the layers of one small panel."""
     finite = math.isfinite(given.depth)
     size, normal = 1e-8, np.array([[0.0, 0.0, 1.0]])
-    panel = (
-        source[None], normal, np.array([size]), np.array([1e-4]), source[None, None], np.array([[size]]),
-    )  # fmt: skip
-    single, _ = given.layers(points, panel)
+    single, _ = given.layers(points, (source[None], normal, np.array([size])))
     apart = np.linalg.norm(points - source, axis=1)
     mirror = np.linalg.norm(points - source * np.array([1.0, 1.0, -1.0]), axis=1)
     total = 1.0 / apart + 1.0 / mirror
+    total = total - 2.0 * given.surface_number * np.log(mirror - points[:, 2] - source[2])
     if finite:
         below = source * np.array([1.0, 1.0, -1.0]) - np.array([0.0, 0.0, 2.0 * given.depth])
         total = total + 1.0 / np.linalg.norm(points - below, axis=1)
@@ -110,7 +112,7 @@ def test_tables_are_far_closer_than_panels(depth, kh, monkeypatch):
     points = np.column_stack([rng.uniform(0.0, 25.0, (400, 2)), rng.uniform(-6.0, 0.0, 400)])
     source, size = np.array([[0.3, 0.2, -1.0]]), 1e-8
     for normal in np.eye(3):
-        panel = (source, normal[None], np.array([size]), np.array([1e-4]), source[None], np.array([[size]]))
+        panel = source, normal[None], np.array([size])
         one, two = own.layers(points, panel), finer.layers(points, panel)
         k = float(wave_number(omega, depth, GRAVITY))
         # over the wave of a source, K / 2 pi, and its slope
@@ -118,13 +120,20 @@ def test_tables_are_far_closer_than_panels(depth, kh, monkeypatch):
         assert np.abs(one[1] - two[1]).max() * 2.0 * math.pi / (size * own.surface_number * max(k, 0.1)) < 2e-4
 
 
-def test_a_source_in_the_surface_radiates_what_its_far_waves_carry():
-    """Im G at the source itself is 2 pi times the factor of the far waves, also for a panel in the surface."""
-    given = WaveGreen.of(water(10.0), 1.0, 10.0, -1.0)
-    source, size = np.zeros((1, 3)), 4.0
-    node = np.array([-1.0, 1.0]) / math.sqrt(3.0)
-    points = np.array([[x, y, 0.0] for x in node for y in node])[None]
-    panel = (source, np.array([[0.0, 0.0, 1.0]]), np.array([size]), np.array([math.sqrt(2.0)]), points,
-             np.full((1, 4), 1.0))  # fmt: skip
-    single, _ = given.layers(source, panel)
-    assert single[0, 0].imag == pytest.approx(-0.5 * given.factor * size, rel=1e-12)
+def test_a_panel_in_the_surface_rises_and_falls_with_its_potential():
+    """There the derivative of G is K G, for a panel on itself and on its neighbours; Im G is that of its far waves."""
+    side = np.array([-1.0, 1.0])
+    corners = np.array([[[x - 1, y - 1, 0.0], [x - 1, y + 1, 0.0], [x + 1, y + 1, 0.0], [x + 1, y - 1, 0.0]]
+                        for x in side for y in side])  # fmt: skip
+    mesh = PanelMesh(corners, np.zeros(4, dtype=np.int64), np.full(4, LID))
+    assert (mesh.normal[:, 2] == -1.0).all()
+    panels = replace(panels_of(mesh, np.zeros((1, 3))), even=True)
+    given = WaveGreen.of(water(10.0), 1.2, 10.0, -1.0)
+    waves = given.layers(mesh.centre, panels.wave_panels)
+    growing = log_terms(mesh, mesh.centre, panels.variation, panels.even_layers)
+    steady = panels.even_rankine(mesh.centre, 10.0)
+    single, double = (
+        one + given.surface_number * two + three for one, two, three in zip(waves, growing, steady, strict=True)
+    )
+    assert single[0, 0].imag == pytest.approx(-0.5 * given.factor * 4.0, rel=1e-12)
+    assert np.abs(double + given.surface_number * single).max() < 5e-3 * np.abs(given.surface_number * single).max()

@@ -26,6 +26,7 @@ from moyai.structures.units.variation import (
     even_variation,
     gauss_points,
     images_of,
+    log_terms,
     rankine_terms,
     variation_of,
 )
@@ -39,7 +40,7 @@ LEAST_DEPTH = 0.1
 DIRECTIONS = 180
 #: Points whose field is evaluated at once
 _BATCH = 500
-#: Points a direction on panels near the mirror of a source in the surface, and on those far from a source
+#: Points a direction on panels far from a source
 _POINTS = 4
 
 
@@ -70,9 +71,7 @@ class MeshPanels:
     @cached_property
     def wave_panels(self) -> tuple[Array, ...]:
         """The panels as :func:`moyai.structures.units.wave_green_kernel.wave_layers` takes them."""
-        mesh, areas = self.mesh, self.variation.areas
-        radius, points, parts = self._gauss
-        given = mesh.centre, mesh.normal, areas, radius, points, parts * (areas / mesh.area)[:, None]
+        given = self.mesh.centre, self.mesh.normal, self.variation.areas
         return tuple(np.ascontiguousarray(item) for item in given)
 
     def reach(self, points: Array) -> float:
@@ -93,15 +92,21 @@ class MeshPanels:
             if self.even:
                 kept[depth] = self.even_rankine(self.mesh.centre[part], depth)
             else:
-                kept[depth] = rankine_terms(self.mesh, part, self.variation, depth, self._even)
+                kept[depth] = rankine_terms(self.mesh, part, self.variation, depth, self.even_layers)
         return kept[depth]
+
+    @cached_property
+    def logarithm(self) -> tuple[Array, Array]:
+        """Single and double layer (q, n), over K, of what grows like a logarithm near the surface, on the part."""
+        return log_terms(self.mesh, self.mesh.centre[self.symmetry.part], self.variation, self.even_layers)
 
     def even_rankine(self, points: Array, depth: float) -> tuple[Array, Array]:
         """Return the same of even panels at any points (p, 3) in the water."""
-        found = [self._even(point) for point, _ in images_of(points, depth)]
+        found = [self.even_layers(point) for point, _ in images_of(points, depth)]
         return sum(one for one, _ in found), sum(two for _, two in found)  # type: ignore[return-value]
 
-    def _even(self, points: Array) -> tuple[Array, Array]:
+    def even_layers(self, points: Array) -> tuple[Array, Array]:
+        """Return single and double layer (p, n) of -1/(4 pi r) of even panels at points (p, 3)."""
         mesh = self.mesh
         given = tuple(np.ascontiguousarray(item) for item in (mesh.corners, mesh.centre, mesh.normal, *self._gauss))
         single, double = np.zeros((2, len(points), mesh.count))
@@ -123,7 +128,7 @@ def panels_of(mesh: PanelMesh, centres: Array, gap_damping: float = 0.0) -> Mesh
 def memory_needed(count: int, group: int = 1) -> float:
     """Return the memory [bytes] that one frequency takes with ``count`` panels and a group of mirrors."""
     part = count / group
-    return _COMPLEX * part**2 * (3.0 * group + 4.0)
+    return _COMPLEX * part**2 * (4.0 * group + 4.0)
 
 
 def memory_of_machine() -> float:
@@ -298,8 +303,10 @@ def _layers_on_part(panels: MeshPanels, water: Water, omega: float) -> tuple[Com
     centre = panels.mesh.centre
     green = WaveGreen.of(water, omega, panels.reach(centre), panels.lowest)
     single, double = green.layers(centre[part], panels.wave_panels)
-    for layer, steady in zip((single, double), panels.rankine(water.depth)):
+    rankine, logarithm = panels.rankine(water.depth), panels.logarithm
+    for layer, steady, growing in zip((single, double), rankine, logarithm):
         layer += steady
+        layer += green.surface_number * growing
     # the jump of the double layer at its own panel, on both sides of a panel in the surface
     level = np.abs(centre[part, 2]) < 1e-9
     double[np.arange(len(part)), part] += np.where(level, 1.0, 0.5)
@@ -371,17 +378,18 @@ def _far_factor(water: Water, k: float) -> float:
 
 def elevation_at(
     points: Array, panels: MeshPanels, water: Water, omega: float, surface: ComplexArray, given: ComplexArray,
-    steady: tuple[Array, Array] | None = None,
+    steady: tuple[Array, ...] | None = None,
 ) -> ComplexArray:  # fmt: skip
     """Return the surface elevation (p, r) [m] at points (p, 2) of the row that solutions (n, r) make.
 
     ``steady`` is what :func:`steady_layers` gives for the points, the same for all frequencies.
     """
-    one, two = steady_layers(points, panels, water) if steady is None else steady
+    one, two, *growing = steady_layers(points, panels, water) if steady is None else steady
     share = (panels.variation.areas / panels.mesh.area)[:, None]
     single, double = _layers(panels, surface, given)
-    out = one @ (share * single) - two @ (share * double)
     green = WaveGreen.of(water, omega, panels.reach(points), panels.lowest)
+    out = one @ (share * single) - two @ (share * double)
+    out += green.surface_number * (growing[0] @ single - growing[1] @ double)
     level = _in_surface(points)
     for start in range(0, len(points), _BATCH):
         some = slice(start, start + _BATCH)
@@ -390,9 +398,15 @@ def elevation_at(
     return np.asarray(1j * omega / water.gravity * out)
 
 
-def steady_layers(points: Array, panels: MeshPanels, water: Water) -> tuple[Array, Array]:
-    """Return single and double layer (p, n) of 1/r and its mirrors at points (p, 2) of the surface."""
-    return panels.even_rankine(_in_surface(points), water.depth)
+def steady_layers(points: Array, panels: MeshPanels, water: Water) -> tuple[Array, ...]:
+    """Return what is the same for all frequencies at points (p, 2) of the surface, layers (p, n).
+
+    Single and double layer of 1/r and its mirrors, of even panels, and of the logarithm over K.
+    """
+    level = _in_surface(points)
+    return *panels.even_rankine(level, water.depth), *log_terms(
+        panels.mesh, level, panels.variation, panels.even_layers
+    )
 
 
 def _in_surface(points: Array) -> Array:

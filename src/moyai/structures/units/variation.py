@@ -17,6 +17,7 @@ from scipy.sparse import csr_array
 
 from moyai.core.arrays import Array, IntArray
 from moyai.core.compiled import njit
+from moyai.sea.vector_kernel import REORDER
 from moyai.structures.units.mesh import PanelMesh
 
 #: Least cosine between the normals of neighbours
@@ -193,6 +194,46 @@ def _layers(
                 double[3, row, panel] += two * t * t
 
 
+@njit(cache=True, error_model="numpy", fastmath=REORDER)
+def _log_layers(
+    target: Any, centre: Any, normal: Any, frame: Any, radius: Any, near: Any, points: Any, areas: Any, single: Any,
+    double: Any,
+) -> None:  # fmt: skip
+    """Add the same of ln(r + d), r and d distance from and depth below a mirror of the source in the surface.
+
+    The integrals of 1 stand behind those of s, t, s^2, t^2 (5, rows, n), in the double layer without the part of 1/r.
+    """
+    for row in range(target.shape[0]):
+        for panel in range(centre.shape[0]):
+            x, y, z = target[row, 0], target[row, 1], target[row, 2]
+            dx, dy, dz = x - centre[panel, 0], y - centre[panel, 1], z - centre[panel, 2]
+            ratio = np.sqrt(dx * dx + dy * dy + dz * dz) / radius[panel]
+            rule = 0
+            while ratio > near[rule]:
+                rule += 1
+            place, size = points[rule], areas[rule]
+            for p in range(place.shape[1]):
+                px, py, pz = place[panel, p, 0], place[panel, p, 1], place[panel, p, 2]
+                rx, ry, rz = x - px, y - py, z - pz
+                r = np.sqrt(rx * rx + ry * ry + rz * rz)
+                one = size[panel, p] * np.log(r + rz)
+                level = (normal[panel, 0] * rx + normal[panel, 1] * ry) / (r + rz)
+                two = -size[panel, p] / r * (level + normal[panel, 2])
+                px, py, pz = px - centre[panel, 0], py - centre[panel, 1], pz - centre[panel, 2]
+                s = frame[panel, 0, 0] * px + frame[panel, 0, 1] * py + frame[panel, 0, 2] * pz
+                t = frame[panel, 1, 0] * px + frame[panel, 1, 1] * py + frame[panel, 1, 2] * pz
+                single[0, row, panel] += one * s
+                single[1, row, panel] += one * t
+                single[2, row, panel] += one * s * s
+                single[3, row, panel] += one * t * t
+                single[4, row, panel] += one
+                double[0, row, panel] += two * s
+                double[1, row, panel] += two * t
+                double[2, row, panel] += two * s * s
+                double[3, row, panel] += two * t * t
+                double[4, row, panel] -= size[panel, p] / r * level
+
+
 def images_of(points: Array, depth: float) -> list[tuple[Array, int]]:
     """Return points (p, 3), 1, and their mirrors in the surface and in a bed at a depth [m], -1."""
     mirrored = points * np.array([1.0, 1.0, -1.0])
@@ -223,11 +264,7 @@ def rankine_terms(
     tuple of ndarray (q, n)
         Of the source, its mirror in the surface and that in the bed.
     """
-    rules = [gauss_points(mesh.corners, points) for points, _ in _RULES]
-    near = np.array([limit for _, limit in _RULES])
-    radius = np.linalg.norm(mesh.corners - mesh.centre[:, None], axis=2).max(axis=1)
-    places, areas = tuple(item[0] for item in rules), tuple(item[1] for item in rules)
-    transposed = [slope.T.tocsr() for slope in found.slopes]
+    near, places, areas, radius = _rules_of(mesh)
     out = np.empty((2, len(part), mesh.count))
     for start in range(0, len(part), _ROWS):
         own = part[start : start + _ROWS]
@@ -238,9 +275,44 @@ def rankine_terms(
                 point, image, mesh.centre, mesh.normal, found.frame, radius, own, near, places, areas, *layers
             )  # fmt: skip
             even += constant(point)
-        total = even
-        for moments, slope in zip(layers.swapaxes(0, 1), transposed):
-            for number in range(2):
-                total[number] -= (slope @ moments[number].T).T / (4.0 * np.pi)
+        out[:, start : start + _ROWS] = even + _varied(layers, found) * (-0.25 / np.pi)
+    return out[0], out[1]
+
+
+def log_terms(
+    mesh: PanelMesh, points: Array, found: Variation, constant: Callable[[Array], tuple[Array, Array]]
+) -> tuple[Array, Array]:
+    """Return single and double layer (q, n) of what grows like a logarithm, over K, at points (q, 3).
+
+    That is ln(r_1 + |z + zeta|) / 2 pi [eq:units-log]; the variation over panels counts, as in [eq:units-rankine].
+    ``constant`` as for :func:`rankine_terms`.
+    """
+    near, places, areas, radius = _rules_of(mesh)
+    out = np.empty((2, len(points), mesh.count))
+    for start in range(0, len(points), _ROWS):
+        mirrored = points[start : start + _ROWS] * np.array([1.0, 1.0, -1.0])
+        layers = np.zeros((2, 5, len(mirrored), mesh.count))
+        _log_layers(mirrored, mesh.centre, mesh.normal, found.frame, radius, near, places, areas, *layers)
+        total = (layers[:, 4] + _varied(layers, found)) * (0.5 / np.pi)
+        # its derivative upwards is 1/r, which grows too fast for points
+        total[1] += 2.0 * mesh.normal[:, 2] * constant(mirrored)[0]
         out[:, start : start + _ROWS] = total
     return out[0], out[1]
+
+
+def _rules_of(mesh: PanelMesh) -> tuple[Array, tuple[Array, ...], tuple[Array, ...], Array]:
+    """Return up to which distance rules serve, their points and areas, and the radii of the panels."""
+    rules = [gauss_points(mesh.corners, points) for points, _ in _RULES]
+    radius = np.linalg.norm(mesh.corners - mesh.centre[:, None], axis=2).max(axis=1)
+    near = np.array([limit for _, limit in _RULES])
+    return near, tuple(item[0] for item in rules), tuple(item[1] for item in rules), radius
+
+
+def _varied(layers: Array, found: Variation) -> Array:
+    """Return what the variation adds to layers (2, q, n) with moments (2, 4 or more, q, n)."""
+    out = np.zeros((2, *layers.shape[2:]))
+    for number, slope in enumerate(found.slopes):
+        transposed = slope.T.tocsr()
+        for layer in range(2):
+            out[layer] += (transposed @ layers[layer, number].T).T
+    return out

@@ -49,9 +49,10 @@ class WaveGreen:
     factor: float
     #: [m].
     depth: float
-    #: Over distance in plan and depth z + zeta below the surface: value, slopes, mixed derivative; shape (i, j, 4).
+    #: Over distance in plan and depth z + zeta below the surface, without the logarithm: value, slopes, mixed
+    #: derivative; shape (i, j, 4).
     far: Array
-    #: The same without the function of infinite depth.
+    #: The same without the function of infinite depth, which holds the logarithm.
     near: Array
     #: Over distance in plan and difference in depth; shape (i, j, 4).
     bed: Array
@@ -87,7 +88,7 @@ class WaveGreen:
         else:
             near, bed = _bed_tables(r, down, surface, k, water, omega, deep)
             factor = k**2 / (k**2 * depth / math.cosh(min(k * depth, 300.0)) ** 2 + surface)
-        far = deep + near if near.shape == deep.shape else deep
+        far = deep + (near if near.shape == deep.shape else 0.0) + 2.0 * surface * _logarithm(r, down)
         j0, j1 = special.j0(k * r), special.j1(k * r)
         with np.errstate(invalid="ignore", divide="ignore"):
             bend = np.where(r > 0.0, -(k**2) * (j0 - j1 / (k * r)), -0.5 * k**2)
@@ -249,6 +250,16 @@ def _series(r: Array, height: Array, sign: float, surface: float, k: float, wate
     out -= _inverse_distance(r, height)
     out[..., 2:] *= sign
     return out
+
+
+def _logarithm(r: Array, down: Array) -> Array:
+    """Return ln(r1 + down) with its derivatives (r, down, 4); its place at zero is never read."""
+    x, y = np.maximum(r, _ON_AXIS * r[1])[:, None], down[None, :]
+    apart = np.hypot(x, y)
+    by_x = x / (apart * (apart + y))
+    by_x[r == 0.0] = 0.0
+    mixed = np.where(r[:, None] > 0.0, -x / apart**3, 0.0)
+    return np.stack([np.log(apart + y), by_x, 1.0 / apart, mixed], axis=-1)
 
 
 def _inverse_distance(r: Array, height: Array) -> Array:

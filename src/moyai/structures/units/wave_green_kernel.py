@@ -10,8 +10,9 @@ from moyai.core.compiled import njit
 #: Distance from the mirror of the source in the surface, times K, within which the closed form serves in place of a
 #: table: there the function grows like the logarithm of the distance.
 NEAR = 1.0
-#: Panels nearer to that mirror than so many of their radii are taken at points of their own.
-SPREAD_OUT = 3.0
+#: Distance, over the root of the area of a panel, at which its own function is taken where it lies in the surface: the
+#: mean logarithm of the distance over a disc.
+OWN = 0.6065 / math.sqrt(math.pi)
 _MOMENTS, _TERMS = 20, 11
 _EULER = 0.5772156649015329
 
@@ -97,40 +98,23 @@ def _from_table(table: Any, steps: Any, x: float, y: float) -> tuple[float, floa
     return value, by_x / steps[0], by_y / steps[1]
 
 
-@njit(cache=True, error_model="numpy")
-def _near_surface(
-    x: float, y: float, z: float, points: Any, areas: Any, normal: Any, surface: float
-) -> tuple[float, float]:
-    """Return single and double layer of the deep wave over the points of a panel."""
-    single, double = 0.0, 0.0
-    for p in range(points.shape[0]):
-        dx, dy = points[p, 0] - x, points[p, 1] - y
-        r = math.sqrt(dx * dx + dy * dy)
-        value, by_x, by_y = deep_wave(surface * r, -surface * (z + points[p, 2]))
-        outward = (normal[0] * dx + normal[1] * dy) / r if r > 0.0 else 0.0
-        single += 2.0 * surface * value * areas[p]
-        double += 2.0 * surface * surface * (by_x * outward - by_y * normal[2]) * areas[p]
-    return single, double
-
-
 @njit(cache=True, error_model="numpy", nogil=True)
 def wave_layers(target: Any, panels: Any, green: Any, single: Any, double: Any) -> None:
-    """Add the layers of the part of the Green function that waves make, all but 1/r and its two mirrors.
+    """Add the layers of the part of the Green function that waves make, all but 1/r, its two mirrors and the logarithm.
 
     Parameters
     ----------
     target : ndarray (q, 3)
         [m].
     panels : tuple
-        Centres and normals (n, 3), areas (n,) that stand for an integral [m2], radii (n,) [m]; points (n, p, 3) and
-        their areas (n, p), which add up to the former.
+        Centres and normals (n, 3), areas (n,) that stand for an integral [m2].
     green : tuple
         K and k [1/m], factor of the far waves and depth [m]; tables of the surface, of the same without the deep wave,
         of the bed, of J0(kR); steps of the tables.
     single, double : ndarray (q, n), complex
         Layers of -G / 4 pi and of its derivative along the normals of the panels.
     """
-    centre, normal, area, radius, points, areas = panels
+    centre, normal, area = panels
     surface, k, factor, depth, far_table, near_table, bed_table, bessel, steps = green
     finite = not math.isinf(depth)
     scale = -0.25 / math.pi
@@ -151,14 +135,16 @@ def wave_layers(target: Any, panels: Any, green: Any, single: Any, double: Any) 
                 real += size * value
                 slope += size * (by_r * outward - by_v * upward)
             else:
-                if apart > SPREAD_OUT * radius[n]:
-                    value, by_x, by_y = deep_wave(surface * r, -surface * v)
-                    real += 2.0 * surface * value * size
-                    slope += 2.0 * surface * surface * (by_x * outward - by_y * upward) * size
-                else:
-                    one, two = _near_surface(x, y, z, points[n], areas[n], normal[n], surface)
-                    real += one
-                    slope += two
+                beside = r
+                if v == 0.0 and r < OWN * math.sqrt(size):
+                    beside = OWN * math.sqrt(size)
+                value, by_x, by_y = deep_wave(surface * beside, -surface * v)
+                distance = math.sqrt(beside * beside + v * v)
+                value += math.log(distance - v)
+                by_x = surface * by_x + beside / (distance * (distance - v))
+                by_y = surface * by_y + 1.0 / distance
+                real += 2.0 * surface * value * size
+                slope += 2.0 * surface * (by_x * outward - by_y * upward) * size
                 if finite:
                     value, by_r, by_v = _from_table(near_table, steps, r, -v)
                     real += size * value
