@@ -182,7 +182,8 @@ class RowInTime:
         eddies = self.eddies
         moving = np.zeros((count, 0 if eddies is None else len(eddies.points))) if water is None else water
         rows = np.zeros((0, size)) if eddies is None else eddies.drag.directions @ free
-        drag = (np.ascontiguousarray(rows), np.zeros(0) if eddies is None else eddies.drag.coefficients, moving)
+        edges = np.zeros(0) if eddies is None else eddies.drag.coefficients
+        drag = (np.ascontiguousarray(rows), edges, np.ascontiguousarray(moving))
         body = (
             np.ascontiguousarray(inverse), np.ascontiguousarray(damping), np.ascontiguousarray(stiffness),
             np.ascontiguousarray(free), np.ascontiguousarray(tangent), self.balanced,
