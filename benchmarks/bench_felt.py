@@ -41,6 +41,7 @@ CASES = {
     "cage/flume_cage": ROOT / "examples" / "cage" / "flume_cage.yaml",
     "cage/circular_50m": ROOT / "examples" / "cage" / "circular_50m.yaml",
     "cage/grid_2x2": ROOT / "examples" / "cage" / "grid_2x2.yaml",
+    "units/template": TEMPLATES / "units" / "template.yaml",
 }
 MOYAI = [sys.executable, "-m", "moyai"]
 MEGABYTE = 1e6

@@ -57,7 +57,7 @@ def at_rest(*connectors, lines=()):
 @pytest.fixture(scope="module")
 def hydro():
     at = at_rest()
-    mesh = row_mesh(at.section, at.row.length, at.row.placements, 4.5, lid=True, gap_lid=False)
+    mesh = row_mesh(at.section, at.row.length, at.row.placements, 3.5, lid=True, gap_lid=False)
     return solve_row(panels_of(mesh, at.centres), WATER, at.centres, OMEGA, np.radians([0.0, 40.0]))
 
 
