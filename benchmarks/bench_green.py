@@ -24,7 +24,7 @@ from moyai.sea.water import Water
 from moyai.structures.units.bem import MeshPanels, panels_of
 from moyai.structures.units.mesh import unit_mesh
 from moyai.structures.units.wave_green import WaveGreen
-from moyai.validation.capytaine_peer import capytaine_mesh, closer_green_function
+from moyai.validation._capytaine import capytaine_mesh, closer_green_function
 
 WATERS = ((10.0, 12.0), (10.0, 6.0), (10.0, 3.0), (math.inf, 4.0))
 REPEATS = 3

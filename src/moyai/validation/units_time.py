@@ -23,7 +23,7 @@ from moyai.structures.units.model import Connector
 from moyai.structures.units.response import RowModel, respond
 from moyai.structures.units.time.memory import RowMemory, fit_row_memory
 from moyai.structures.units.time.model import RowInTime
-from moyai.validation.capytaine_peer import capytaine_mesh, closer_green_function
+from moyai.validation._capytaine import capytaine_mesh, closer_green_function
 from moyai.validation.units import WATER, at_rest, row
 
 HEAD = math.pi / 2.0

@@ -81,7 +81,7 @@ def test_rankine_terms_are_those_of_fine_panels():
     pytest.importorskip("capytaine", reason="Capytaine is not installed")
     from capytaine.green_functions.delhommeau import Delhommeau
 
-    from moyai.validation.capytaine_peer import capytaine_mesh
+    from moyai.validation._capytaine import capytaine_mesh
 
     box = unit_mesh(shapes.rectangle(10.0, 4.5).immersed(3.0), 20.0, 4.0, lid=True)
     hull = replace(box, corners=box.corners[box.part == HULL], unit=box.unit[box.part == HULL],
