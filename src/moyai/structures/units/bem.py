@@ -30,7 +30,7 @@ from moyai.structures.units.variation import (
     rankine_terms,
     variation_of,
 )
-from moyai.structures.units.wave_green import WaveGreen
+from moyai.structures.units.wave_green import WaveGreen, far_factor
 
 #: Bytes of a complex number
 _COMPLEX = 16
@@ -363,17 +363,7 @@ def far_amplitudes(
     single, double = _layers(panels, surface, given)
     slope = k * (normal[:, [2]] * rate - 1j * across * profile) * phase
     total = single.T @ (area * profile * phase) - double.T @ (area * slope)
-    return np.asarray(0.5 * _far_factor(water, k) * omega / water.gravity * total)
-
-
-def _far_factor(water: Water, k: float) -> float:
-    """Return the factor of the outgoing wave in 4 pi G: (k^2 - K^2) cosh^2 kh / ((k^2 - K^2) h + K)."""
-    if math.isinf(water.depth):
-        return k
-    kh = k * water.depth
-    surface = k * math.tanh(kh)
-    # (k^2 - K^2) cosh^2 kh = k^2
-    return k**2 / (k**2 * water.depth / math.cosh(min(kh, 300.0)) ** 2 + surface)
+    return np.asarray(0.5 * far_factor(omega**2 / water.gravity, k, water.depth) * omega / water.gravity * total)
 
 
 def elevation_at(

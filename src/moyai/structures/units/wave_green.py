@@ -21,7 +21,7 @@ from moyai.core.at_once import each_at_once, threads
 from moyai.core.progress import Progress
 from moyai.sea.dispersion import evanescent_wave_numbers, wave_number
 from moyai.sea.water import Water
-from moyai.structures.units.wave_green_kernel import deep_wave, wave_layers
+from moyai.structures.units.wave_green_kernel import wave_layers
 
 #: Step of the tables over 1/k and over the depth
 _OF_WAVE, _OF_DEPTH = 0.08, 0.05
@@ -82,18 +82,16 @@ class WaveGreen:
         r: Array = step * np.arange(math.ceil(reach / step) + 2.0)
         down: Array = step * np.arange(math.ceil(-2.0 * lowest / step) + 2.0)
         deep = _deep_table(r, down, surface)
-        if math.isinf(depth):
-            near = bed = np.zeros((2, 2, 4))
-            factor = k
-        else:
+        far = deep + 2.0 * surface * _logarithm(r, down)
+        near = bed = np.zeros((2, 2, 4))
+        if math.isfinite(depth):
             near, bed = _bed_tables(r, down, surface, k, water, omega, deep)
-            factor = k**2 / (k**2 * depth / math.cosh(min(k * depth, 300.0)) ** 2 + surface)
-        far = deep + (near if near.shape == deep.shape else 0.0) + 2.0 * surface * _logarithm(r, down)
+            far += near
         j0, j1 = special.j0(k * r), special.j1(k * r)
         with np.errstate(invalid="ignore", divide="ignore"):
             bend = np.where(r > 0.0, -(k**2) * (j0 - j1 / (k * r)), -0.5 * k**2)
         bessel = np.stack([j0, -k * j1, bend], axis=1)
-        return cls(surface, k, factor, depth, far, near, bed, bessel, np.array([step, step]))
+        return cls(surface, k, far_factor(surface, k, depth), depth, far, near, bed, bessel, np.array([step, step]))
 
     def layers(self, target: Array, panels: tuple[Array, ...]) -> tuple[ComplexArray, ComplexArray]:
         """Return single and double layer (q, n) of -G / 4 pi at targets (q, 3); see :func:`wave_layers`."""
@@ -114,6 +112,14 @@ class WaveGreen:
             self.surface_number, self.wave_number, self.factor, self.depth, self.far, self.near, self.bed, self.bessel,
             self.steps,
         )  # fmt: skip
+
+
+def far_factor(surface: float, k: float, depth: float) -> float:
+    """Return F of [eq:units-green-waves], of far waves [1/m]: (k^2 - K^2) cosh^2 kh / ((k^2 - K^2) h + K)."""
+    if math.isinf(depth):
+        return k
+    # (k^2 - K^2) cosh^2 kh = k^2
+    return k**2 / (k**2 * depth / math.cosh(min(k * depth, 300.0)) ** 2 + surface)
 
 
 def _deep_table(r: Array, down: Array, surface: float) -> Array:
@@ -234,7 +240,7 @@ def _series(r: Array, height: Array, sign: float, surface: float, k: float, wate
     depth = water.depth
     other = evanescent_wave_numbers(omega, depth, water.gravity, _SERIES)
     out = np.zeros((len(r), len(height), 4))
-    factor = k**2 / (k**2 * depth / math.cosh(min(k * depth, 300.0)) ** 2 + surface)
+    factor = far_factor(surface, k, depth)
     grown, back = np.exp(k * (height - 2.0 * depth)), np.exp(-2.0 * k * height)
     whole = (1.0 + math.exp(-2.0 * k * depth)) ** 2
     up, rise = grown * (1.0 + back) / whole, k * grown * (1.0 - back) / whole
@@ -267,6 +273,3 @@ def _inverse_distance(r: Array, height: Array) -> Array:
     x, y = r[:, None], height[None, :]
     apart = np.hypot(x, y)
     return np.stack([1.0 / apart, -x / apart**3, -y / apart**3, 3.0 * x * y / apart**5], axis=-1)
-
-
-__all__ = ["WaveGreen", "deep_wave"]
