@@ -136,7 +136,10 @@ class _Cache(FunctionCache):  # type: ignore[misc]
 
     def _load_overload(self, sig: Any, target_context: Any) -> Any:
         """Return a kernel of the cache, or the one that came with the package; see numba's method."""
-        found = super()._load_overload(sig, target_context)
+        found = None
+        # what is damaged is compiled again and replaced
+        with suppress(Exception):
+            found = super()._load_overload(sig, target_context)
         if found is None and self._enabled:
             data = shipped(
                 Path(self._py_func.__code__.co_filename), self._index_key(sig, target_context.codegen()), self._files_in

@@ -306,6 +306,8 @@ def _shake(network: Network, place: Array, flow: Flow, stops: bool) -> Array:
                 network, motions, duration=interval, output_step=interval, flow=flow, start=state, keep_nodes=[0],
                 keep_bars=[],
             )  # fmt: skip
+            if history.status == "interrupted":
+                raise KeyboardInterrupt
             if history.status != "converged":
                 break
             now = float(history.kinetic_energy[-1])

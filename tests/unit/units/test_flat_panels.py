@@ -36,6 +36,13 @@ def test_a_square_at_its_own_centre():
     # on an edge and on its line, where a factor of the logarithm is zero
     assert np.isfinite(flat_panel(0.5, 0.0, 0.0, corners, UPWARD)).all()
     assert np.isfinite(flat_panel(3.0, 0.0, 0.0, corners, UPWARD)).all()
+    # ever nearer to an edge, from the side and from above
+    for away in 10.0 ** np.arange(-14.0, -3.0, 0.25):
+        for point in ((0.3, away, 0.0), (0.3, -away, 0.0), (0.3, 0.0, away), (1.3, -away, away)):
+            single, double = flat_panel(*point, corners, UPWARD)
+            near = flat_panel(point[0], 0.0, 0.0, corners, UPWARD)[0]
+            assert abs(single - near) < 10.0 * away * (1.0 - np.log(away)) + 1e-13
+            assert abs(double) < 2.0 * np.pi
 
 
 def test_a_closed_surface_holds_its_inside_in_a_whole_solid_angle():

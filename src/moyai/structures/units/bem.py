@@ -217,7 +217,7 @@ def solve_frequency(panels: MeshPanels, water: Water, omega: float, headings: Ar
     """
     mesh = panels.mesh
     k = float(wave_number(omega, water.depth, water.gravity))
-    _check_depth(k, water, omega)
+    check_longest(water, omega)
     incident, incident_normal = incident_on(mesh, water, omega, k, headings)
     given = given_flow(panels, water, omega, k, headings)
     surface = _solved(panels, water, omega, given, incident)
@@ -253,13 +253,21 @@ def _departure(first: ComplexArray, second: ComplexArray) -> Array:
     return np.asarray(np.abs(first - second).reshape(len(first), -1, 6).max(axis=(0, 1)))
 
 
-def _check_depth(k: float, water: Water, omega: float) -> None:
-    if k * water.depth < LEAST_DEPTH:
+def check_longest(water: Water, omega: float) -> None:
+    """Refuse waves that are too long for the depth.
+
+    Raises
+    ------
+    InputError
+    """
+    relative = float(wave_number(omega, water.depth, water.gravity)) * water.depth
+    if relative < LEAST_DEPTH:
         raise InputError(
-            f"waves of {2.0 * math.pi / omega:.4g} s are {2.0 * math.pi / (k * water.depth):.0f} depths long",
+            f"waves of {2.0 * math.pi / omega:.4g} s are {2.0 * math.pi / relative:.0f} depths long",
             parameter="waves",
             allowed=f"up to {2.0 * math.pi / LEAST_DEPTH:.0f} depths",
-            remedy="leave such long waves out: they pass the row as if it were not there",
+            remedy="leave such long waves out of the seas or of settings.frequencies: they pass the row as if it were "
+            "not there",
         )
 
 

@@ -19,7 +19,7 @@ from moyai.structures.units.assembly import RowAtLevel
 from moyai.structures.units.bem import elevation_at, given_flow, steady_layers
 from moyai.structures.units.hydrodynamics import METHOD, RowHydrodynamics
 from moyai.structures.units.mesh import waterplane
-from moyai.structures.units.model import MapArea
+from moyai.structures.units.model import ON_HULL, MapArea
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -66,9 +66,11 @@ def map_points(area: MapArea, at: RowAtLevel) -> MapPoints:
 
 
 def _inside(points: Array, corners: Array) -> NDArray[np.bool_]:
+    """Return which points lie inside of a waterplane or on its edge, where a hull has two sides."""
     inside = np.ones(len(points), dtype=bool)
     for a, b in zip(corners, np.roll(corners, -1, axis=0)):
-        inside &= (b[0] - a[0]) * (points[:, 1] - a[1]) - (b[1] - a[1]) * (points[:, 0] - a[0]) >= 0.0
+        apart = (b[0] - a[0]) * (points[:, 1] - a[1]) - (b[1] - a[1]) * (points[:, 0] - a[0])
+        inside &= apart >= -ON_HULL * float(np.hypot(*(b - a)))
     return inside
 
 

@@ -36,7 +36,7 @@ SYMMETRY, HASKIND, ENERGY = 0.1, 0.05, 0.05
 _RECENT: dict[str, Solution] = {}
 RECENT_BYTES = 200_000_000
 #: How coefficients are computed, a part of the key of what is kept: changes where numbers do
-METHOD = "exact Green function"
+METHOD = "exact Green function, its logarithm over panels"
 
 
 @dataclass(frozen=True, eq=False)

@@ -27,6 +27,8 @@ from moyai.sea.environment import Environment
 
 #: Along x, y, z and about x, y, z of the unit.
 DOFS = ("sway", "surge", "heave", "pitch", "roll", "yaw")
+#: Distance from a hull within which a point lies on it [m]
+ON_HULL = 1e-3
 #: Largest tension over the mean up to which a line at rest at every instant serves
 SNAP_RATIO = 5.0
 #: Factors on the damping of the units beyond waves for the band of an answer, as for a single breakwater.

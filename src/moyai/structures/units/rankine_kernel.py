@@ -41,11 +41,10 @@ def flat_panel(x: float, y: float, z: float, corners: Any, normal: Any) -> tuple
         square = across * across + height * height
         if square <= 1e-20 * length * length:
             continue
-        # without the difference of numbers that are nearly equal
-        if begin + end > 0.0:
-            whole += across * math.log((last + end) / (first + begin))
-        else:
-            whole += across * math.log((first - begin) / (last - end))
+        # r + s without the difference of numbers that are nearly equal: r^2 - s^2 is the square
+        above = last + end if end > 0.0 else square / (last - end)
+        below = first + begin if begin > 0.0 else square / (first - begin)
+        whole += across * math.log(above / below)
         angle += math.atan(across * end / (square + away * last)) - math.atan(across * begin / (square + away * first))
     return whole - away * angle, math.copysign(angle, height) if away > 1e-10 * furthest else 0.0
 

@@ -25,6 +25,8 @@ from moyai.structures.units.wave_green_kernel import wave_layers
 
 #: Step of the tables over 1/k and over the depth
 _OF_WAVE, _OF_DEPTH = 0.08, 0.05
+#: Depth, times k, over which steps downwards grow by as much as they are, and places of a table that are found at once
+_GROWTH, _AT_ONCE = 4.0, 50_000
 #: Share of the depth from which the series of eigenfunctions serves, and its terms
 _SERIES_FROM, _SERIES = 0.5, 26
 #: Exponent at which integrands have fallen below rounding
@@ -58,7 +60,7 @@ class WaveGreen:
     bed: Array
     #: J0(kR) and two derivatives over the distance in plan; shape (i, 3).
     bessel: Array
-    #: Steps of the tables [m]; shape (2,).
+    #: Step in plan, first step downwards, depth over which steps downwards grow [m]; shape (3,).
     steps: Array
 
     @classmethod
@@ -80,18 +82,25 @@ class WaveGreen:
         step = min(_OF_WAVE / k, _OF_DEPTH * depth)
         # a cell at least beyond the last distance
         r: Array = step * np.arange(math.ceil(reach / step) + 2.0)
-        down: Array = step * np.arange(math.ceil(-2.0 * lowest / step) + 2.0)
-        deep = _deep_table(r, down, surface)
+        # downwards everything fades, and steps may grow
+        growth = _GROWTH / k
+        steps = np.array([step, step, growth])
+        turns: Array = step * np.arange(math.ceil(growth * math.log1p(-2.0 * lowest / growth) / step) + 2.0)
+        down: Array = growth * np.expm1(turns / growth)
+        deep = np.concatenate([_deep_table(some, down, surface) for some in _in_blocks(r, down)])
         far = deep + 2.0 * surface * _logarithm(r, down)
         near = bed = np.zeros((2, 2, 4))
         if math.isfinite(depth):
             near, bed = _bed_tables(r, down, surface, k, water, omega, deep)
             far += near
+        # slopes over the turns that the tables are even in
+        for table in (far, near, bed) if math.isfinite(depth) else (far,):
+            table[..., 2:] *= (1.0 + down / growth)[:, None]
         j0, j1 = special.j0(k * r), special.j1(k * r)
         with np.errstate(invalid="ignore", divide="ignore"):
             bend = np.where(r > 0.0, -(k**2) * (j0 - j1 / (k * r)), -0.5 * k**2)
         bessel = np.stack([j0, -k * j1, bend], axis=1)
-        return cls(surface, k, far_factor(surface, k, depth), depth, far, near, bed, bessel, np.array([step, step]))
+        return cls(surface, k, far_factor(surface, k, depth), depth, far, near, bed, bessel, steps)
 
     def layers(self, target: Array, panels: tuple[Array, ...]) -> tuple[ComplexArray, ComplexArray]:
         """Return single and double layer (q, n) of -G / 4 pi at targets (q, 3); see :func:`wave_layers`."""
@@ -112,6 +121,11 @@ class WaveGreen:
             self.surface_number, self.wave_number, self.factor, self.depth, self.far, self.near, self.bed, self.bessel,
             self.steps,
         )  # fmt: skip
+
+
+def _in_blocks(r: Array, down: Array) -> list[Array]:
+    """Return distances in pieces whose integrals fit into memory."""
+    return np.array_split(r, max(1, math.ceil(len(r) * len(down) / _AT_ONCE)))
 
 
 def far_factor(surface: float, k: float, depth: float) -> float:

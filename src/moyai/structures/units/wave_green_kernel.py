@@ -70,9 +70,11 @@ def deep_wave(x: float, y: float) -> tuple[float, float, float]:
 def _from_table(table: Any, steps: Any, x: float, y: float) -> tuple[float, float, float]:
     """Return value and derivatives at x, y from the corner of a table, by bicubic Hermite polynomials.
 
-    It holds value, slopes and mixed derivative (nx, ny, 4).
+    It holds value, slopes and mixed derivative (nx, ny, 4), even in x and in a ln(1 + y / a), ``a`` the last of the
+    steps.
     """
-    across, up = x / steps[0], y / steps[1]
+    stretch = 1.0 + y / steps[2]
+    across, up = x / steps[0], steps[2] * math.log(stretch) / steps[1]
     i, j = min(int(across), table.shape[0] - 2), min(int(up), table.shape[1] - 2)
     s, t = across - i, up - j
     q, u = 1.0 - s, 1.0 - t
@@ -95,7 +97,7 @@ def _from_table(table: Any, steps: Any, x: float, y: float) -> tuple[float, floa
         value += a * plain + e * tilted
         by_x += c * plain + g * tilted
         by_y += a * rising + e * turning
-    return value, by_x / steps[0], by_y / steps[1]
+    return value, by_x / steps[0], by_y / (steps[1] * stretch)
 
 
 @njit(cache=True, error_model="numpy", nogil=True)

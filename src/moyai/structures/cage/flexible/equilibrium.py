@@ -130,6 +130,8 @@ def solve_cage_equilibrium(
     if residual > SETTLE_ABOVE:
         duration = SETTLE_TIME * math.sqrt(model.design.size / model.water.gravity)
         history = simulate(network, duration=duration, output_step=duration / 20.0, flow=flow, start=state)
+        if history.status == "interrupted":
+            raise KeyboardInterrupt
         if history.status == "converged":
             place = history.final.position
             state, tension = State(0.0, place, np.zeros_like(place)), history.tension[-1]

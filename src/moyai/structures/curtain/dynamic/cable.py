@@ -107,6 +107,8 @@ def dynamic_cable(
     speed[1:-1, 0] = impact.speed * (x[1:-1] / x.max() if start == "sag" else 1.0)
     rise = peak_by_energy(impact, moved).time
     history = simulate(network, duration=rises * rise, output_step=rise / 200.0, start=State(0.0, place, speed))
+    if history.status == "interrupted":
+        raise KeyboardInterrupt
     if history.status != "converged":
         raise ConvergenceError(history.message, parameter="dynamic_cable")
     highest = history.tension_peak.max(axis=1)

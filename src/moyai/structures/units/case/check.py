@@ -21,6 +21,7 @@ from moyai.mooring.lines import Line, LineElement
 from moyai.mooring.rotations import rotation_matrix
 from moyai.sea.states import RegularSea
 from moyai.structures.units.case import schema
+from moyai.structures.units.model import ON_HULL
 
 if TYPE_CHECKING:
     from moyai.potential.sections import Hull
@@ -251,7 +252,7 @@ def _check_map(model: schema.UnitsCase, findings: Findings) -> None:
 
 
 def _check_named_points(model: schema.UnitsCase, findings: Findings) -> None:
-    """Refuse named points inside of a unit, where there is no water."""
+    """Refuse named points inside of a unit or on its hull, where there is no water."""
     assert model.map is not None
     half = 0.5 * model.structure.units.length
     try:
@@ -264,7 +265,7 @@ def _check_named_points(model: schema.UnitsCase, findings: Findings) -> None:
             dx, dy = point.x - place.x, point.y - place.y
             cos, sin = math.cos(place.heading), math.sin(place.heading)
             across, lengthwise = dx * cos + dy * sin, dy * cos - dx * sin
-            if left < across < right and abs(lengthwise) < half:
+            if left - ON_HULL <= across <= right + ON_HULL and abs(lengthwise) <= half + ON_HULL:
                 findings.fault(
                     ("map", "points", index),
                     f"the point '{point.name}' at x = {point.x:g} m, y = {point.y:g} m lies inside of unit "
@@ -443,7 +444,7 @@ def _check_step(problem: UnitsProblem, findings: Findings) -> None:
 def _check_problem(model: schema.UnitsCase, problem: UnitsProblem, findings: Findings) -> None:
     from moyai.case.chain_on_bed import check_chain_on_bed
     from moyai.structures.units.assembly import assemble, level_notices, steady_load, steady_position
-    from moyai.structures.units.bem import check_memory
+    from moyai.structures.units.bem import check_longest, check_memory
     from moyai.structures.units.coefficients_file import read_row, row_from_file
     from moyai.structures.units.contact import steady_meeting
     from moyai.structures.units.outlines import check_apart
@@ -471,6 +472,7 @@ def _check_problem(model: schema.UnitsCase, problem: UnitsProblem, findings: Fin
                 of_file = read_row(problem.coefficients) if of_file is None else of_file
                 notices += row_from_file(of_file, at, omega, headings_of(environment)).notices
             elif WITH_WAVES & set(problem.settings.analyses) and omega.size:
+                check_longest(at.water, float(omega.min()))
                 panels = row_panels(at, problem.settings, highest_frequency(omega, problem.settings))
                 check_memory(panels)
                 notices += check_resolution(at, panels, omega)

@@ -21,6 +21,8 @@ from moyai.structures.units.seas import frequencies_of, headings_of
 from moyai.structures.units.time.band import further_frequencies, memory_band
 from moyai.structures.units.time.model import STEPS_OF_WAVE
 
+#: Processor time of a run but for what follows [s]
+_FIXED = 4.0
 #: Processor time of the waves of two panels [s], of 1/r of two panels, once for all frequencies [s], of the tables of a
 #: frequency [s], of one operation of the solver [s], and of a step through time over the square of the degrees of
 #: freedom, runs with the ends of assumed damping and what is read of them included [s]
@@ -84,11 +86,11 @@ def _panel_numbers(level: str, at: RowAtLevel, problem: UnitsProblem) -> Iterato
         yield Number(group, level, "frequencies with those of the memory", float(solved))
     pairs = mesh.count * part
     solver = mirrors * 8.0 / 3.0 * part**3 * _PER_OPERATION
-    seconds = pairs * _PER_STEADY_PAIR + solved * (pairs * _PER_PAIR + _PER_TABLE + solver)
+    seconds = _FIXED + pairs * _PER_STEADY_PAIR + solved * (pairs * _PER_PAIR + _PER_TABLE + solver)
     if "map" in problem.settings.analyses:
         area = problem.map_area
         points = area.cells[0] * area.cells[1] + len(area.points) + (LINE_POINTS if area.line is not None else 0)
-        seconds += omega.size * points * mesh.count * _PER_PAIR
+        seconds += points * mesh.count * (_PER_STEADY_PAIR + omega.size * _PER_PAIR)
     if "time" in problem.settings.analyses:
         steps = problem.settings.time.time_step or 2.0 * math.pi / float(omega.max()) / STEPS_OF_WAVE
         lasting = sum(sea.duration for sea in problem.environment.sea_states if isinstance(sea, IrregularSea))

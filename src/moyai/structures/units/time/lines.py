@@ -162,6 +162,8 @@ def rerun(at: RowAtLevel, moving: DynamicLine, given: Carried, event: float) -> 
         moving.network, {moving.line.name: motion}, duration=duration, output_step=step, flow=flow, start=state,
         counted_from=counted_from,
     )  # fmt: skip
+    if history.status == "interrupted":
+        raise KeyboardInterrupt
     if history.status != "converged":
         raise ConvergenceError(f"line '{moving.line.name}' in motion: {history.message}")
     ends = end_tensions(moving.network, moving.line.name, history.position, history.tension_peak)
