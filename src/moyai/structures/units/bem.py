@@ -266,8 +266,7 @@ def check_longest(water: Water, omega: float) -> None:
             f"waves of {2.0 * math.pi / omega:.4g} s are {2.0 * math.pi / relative:.0f} depths long",
             parameter="waves",
             allowed=f"up to {2.0 * math.pi / LEAST_DEPTH:.0f} depths",
-            remedy="leave such long waves out of the seas or of settings.frequencies: they pass the row as if it were "
-            "not there",
+            remedy="leave such long waves out: they pass the row as if it were not there",
         )
 
 

@@ -25,6 +25,7 @@ from moyai.structures.units.model import ON_HULL
 
 if TYPE_CHECKING:
     from moyai.potential.sections import Hull
+    from moyai.sea.water import Water
     from moyai.structures.units.assembly import RowAtLevel
     from moyai.structures.units.model import UnitsProblem
 
@@ -441,10 +442,24 @@ def _check_step(problem: UnitsProblem, findings: Findings) -> None:
         )
 
 
+def _check_longest(model: schema.UnitsCase, water: Water, omega: float, findings: Findings) -> bool:
+    """Refuse waves that are too long for the depth, where they are given; return whether there are none."""
+    from moyai.structures.units.bem import check_longest
+
+    try:
+        check_longest(water, omega)
+    except InputError as error:
+        path = ("waves",) if model.settings.frequencies == "auto" else ("settings", "frequencies")
+        fault = error.fault
+        findings.fault(path, fault.message, allowed=fault.allowed, remedy=fault.remedy)
+        return False
+    return True
+
+
 def _check_problem(model: schema.UnitsCase, problem: UnitsProblem, findings: Findings) -> None:
     from moyai.case.chain_on_bed import check_chain_on_bed
     from moyai.structures.units.assembly import assemble, level_notices, steady_load, steady_position
-    from moyai.structures.units.bem import check_longest, check_memory
+    from moyai.structures.units.bem import check_memory
     from moyai.structures.units.coefficients_file import read_row, row_from_file
     from moyai.structures.units.contact import steady_meeting
     from moyai.structures.units.outlines import check_apart
@@ -472,7 +487,8 @@ def _check_problem(model: schema.UnitsCase, problem: UnitsProblem, findings: Fin
                 of_file = read_row(problem.coefficients) if of_file is None else of_file
                 notices += row_from_file(of_file, at, omega, headings_of(environment)).notices
             elif WITH_WAVES & set(problem.settings.analyses) and omega.size:
-                check_longest(at.water, float(omega.min()))
+                if not _check_longest(model, at.water, float(omega.min()), findings):
+                    return
                 panels = row_panels(at, problem.settings, highest_frequency(omega, problem.settings))
                 check_memory(panels)
                 notices += check_resolution(at, panels, omega)
