@@ -270,7 +270,7 @@ def _check_named_points(model: schema.UnitsCase, findings: Findings) -> None:
                 findings.fault(
                     ("map", "points", index),
                     f"the point '{point.name}' at x = {point.x:g} m, y = {point.y:g} m lies inside of unit "
-                    f"{number + 1}, where there is no water",
+                    f"{number + 1} or on its hull, where there is no water",
                     allowed="points outside of the units", remedy="move it",
                 )  # fmt: skip
 
