@@ -139,4 +139,5 @@ def test_a_panel_in_the_surface_rises_and_falls_with_its_potential():
         one + given.surface_number * two + three for one, two, three in zip(waves, growing, steady, strict=True)
     )
     assert single[0, 0].imag == pytest.approx(-0.5 * given.factor * 4.0, rel=1e-12)
+    # the rest of a panel on itself is taken at one distance, that of a disc
     assert np.abs(double + given.surface_number * single).max() < 5e-3 * np.abs(given.surface_number * single).max()

@@ -8,6 +8,7 @@ all headings are solved with one factorisation for each parity.
 from __future__ import annotations
 
 import math
+from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property
 
@@ -375,19 +376,17 @@ def far_amplitudes(
 
 def elevation_at(
     points: Array, panels: MeshPanels, water: Water, omega: float, surface: ComplexArray, given: ComplexArray,
-    steady: tuple[Array, ...] | None = None,
+    steady: ComplexArray | None = None,
 ) -> ComplexArray:  # fmt: skip
     """Return the surface elevation (p, r) [m] at points (p, 2) of the row that solutions (n, r) make.
 
-    ``steady`` is what :func:`steady_layers` gives for the points, the same for all frequencies.
+    ``steady`` is what :func:`steady_potentials` gives for the frequency.
     """
-    one, two, *growing = steady_layers(points, panels, water) if steady is None else steady
-    share = (panels.variation.areas / panels.mesh.area)[:, None]
+    if steady is None:
+        (steady,) = steady_potentials(points, panels, water, [(omega, surface, given)])
     single, double = _layers(panels, surface, given)
     green = WaveGreen.of(water, omega, panels.reach(points), panels.lowest)
-    out = one @ (share * single) - two @ (share * double)
-    out += green.surface_number * (growing[0] @ single - growing[1] @ double)
-    level = _in_surface(points)
+    level, out = _in_surface(points), steady.copy()
     for start in range(0, len(points), _BATCH):
         some = slice(start, start + _BATCH)
         of_single, of_double = green.layers(level[some], panels.wave_panels)
@@ -395,15 +394,26 @@ def elevation_at(
     return np.asarray(1j * omega / water.gravity * out)
 
 
-def steady_layers(points: Array, panels: MeshPanels, water: Water) -> tuple[Array, ...]:
-    """Return what is the same for all frequencies at points (p, 2) of the surface, layers (p, n).
+def steady_potentials(
+    points: Array, panels: MeshPanels, water: Water, solutions: Sequence[tuple[float, ComplexArray, ComplexArray]]
+) -> list[ComplexArray]:
+    """Return the potential (p, r) of 1/r, its mirrors and the logarithm at points (p, 2) of the surface.
 
-    Single and double layer of 1/r and its mirrors, of even panels, and of the logarithm over K.
+    Their layers are the same for all frequencies and too large to be kept: frequencies, solutions and given flows
+    (n, r) come together.
     """
+    share = (panels.variation.areas / panels.mesh.area)[:, None]
+    layers = [_layers(panels, surface, given) for _, surface, given in solutions]
     level = _in_surface(points)
-    return *panels.even_rankine(level, water.depth), *log_terms(
-        panels.mesh, level, panels.variation, panels.even_layers
-    )
+    out = [np.empty((len(points), surface.shape[1]), dtype=complex) for _, surface, _ in solutions]
+    for start in range(0, len(points) if out else 0, _BATCH):
+        some = slice(start, start + _BATCH)
+        one, two = panels.even_rankine(level[some], water.depth)
+        three, four = log_terms(panels.mesh, level[some], panels.variation, panels.even_layers)
+        for (omega, _, _), (single, double), found in zip(solutions, layers, out, strict=True):
+            found[some] = one @ (share * single) - two @ (share * double)
+            found[some] += omega**2 / water.gravity * (three @ single - four @ double)
+    return out
 
 
 def _in_surface(points: Array) -> Array:

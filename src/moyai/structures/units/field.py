@@ -16,7 +16,7 @@ from moyai.core.progress import Progress, silent
 from moyai.core.store import DatasetStore, key_of
 from moyai.core.version import VERSION
 from moyai.structures.units.assembly import RowAtLevel
-from moyai.structures.units.bem import elevation_at, given_flow, steady_layers
+from moyai.structures.units.bem import Solution, elevation_at, given_flow, steady_potentials
 from moyai.structures.units.hydrodynamics import METHOD, RowHydrodynamics
 from moyai.structures.units.mesh import waterplane
 from moyai.structures.units.model import ON_HULL, MapArea
@@ -96,18 +96,16 @@ def wave_field(
         VERSION, METHOD, panels.mesh.corners, wet, hydro.centres, panels.gap_damping, hydro.headings,
         (water.depth, water.density, water.gravity),
     )  # fmt: skip
-    steady = None
-    for index, solution in enumerate(hydro.solutions):
+    keys = [key_of(base, solution.omega, "field") for solution in hydro.solutions]
+    kept = [None if store is None else store.get(key) for key in keys]
+    known = [None if data is None or "field" not in data else data["field"].values for data in kept]
+    asked = [_solved(hydro, solution) for solution, waves in zip(hydro.solutions, known) if waves is None]
+    steady = iter(steady_potentials(wet, panels, water, asked))
+    for index, (solution, key, found) in enumerate(zip(hydro.solutions, keys, known)):
         progress("waves around the row", index, len(hydro.solutions))
-        key = key_of(base, solution.omega, "field")
-        kept = None if store is None else store.get(key)
-        if kept is not None and "field" in kept:
-            waves = kept["field"].values
-        else:
-            surface = np.concatenate([solution.radiation, solution.diffraction], axis=1)
-            given = given_flow(panels, water, solution.omega, solution.wave_number, hydro.headings)
-            steady = steady_layers(wet, panels, water) if steady is None else steady
-            waves = elevation_at(wet, panels, water, solution.omega, surface, given, steady)
+        waves = found
+        if waves is None:
+            waves = elevation_at(wet, panels, water, *_solved(hydro, solution), next(steady))
             if store is not None:
                 store.put(key, _kept(waves))
         count = solution.radiation.shape[1]
@@ -117,6 +115,14 @@ def wave_field(
         diffracted.append(_spread(waves[:, count:] + incident, points.wet))
     progress("waves around the row", len(hydro.solutions), len(hydro.solutions))
     return WaveField(tuple(radiated), tuple(diffracted))
+
+
+def _solved(hydro: RowHydrodynamics, solution: Solution) -> tuple[float, ComplexArray, ComplexArray]:
+    """Return a frequency, the solutions of all motions and headings there, and the flows that they were given."""
+    assert hydro.panels is not None
+    surface = np.concatenate([solution.radiation, solution.diffraction], axis=1)
+    given = given_flow(hydro.panels, hydro.water, solution.omega, solution.wave_number, hydro.headings)
+    return solution.omega, surface, given
 
 
 def _kept(waves: ComplexArray) -> xr.Dataset:

@@ -154,6 +154,21 @@ def _moments(mesh: PanelMesh, frame: Array) -> Array:
     return np.asarray(np.einsum("knp,np->kn", np.concatenate([local, local**2]), area))
 
 
+@njit(cache=True, error_model="numpy", fastmath=REORDER)
+def _add_moments(one: float, two: float, px: float, py: float, pz: float, frame: Any, single: Any, double: Any) -> None:
+    """Add two values at a point, from the centre of its panel, to their moments with s, t, s^2, t^2 (4, ...)."""
+    s = frame[0, 0] * px + frame[0, 1] * py + frame[0, 2] * pz
+    t = frame[1, 0] * px + frame[1, 1] * py + frame[1, 2] * pz
+    single[0] += one * s
+    single[1] += one * t
+    single[2] += one * s * s
+    single[3] += one * t * t
+    double[0] += two * s
+    double[1] += two * t
+    double[2] += two * s * s
+    double[3] += two * t * t
+
+
 @njit(cache=True, error_model="numpy", fastmath=True)
 def _layers(
     target: Any, image: Any, centre: Any, normal: Any, frame: Any, radius: Any, own: Any,
@@ -182,16 +197,7 @@ def _layers(
                 if not flat:
                     two = one / square * (rx * normal[panel, 0] + ry * normal[panel, 1] + rz * normal[panel, 2])
                 px, py, pz = px - centre[panel, 0], py - centre[panel, 1], pz - centre[panel, 2]
-                s = frame[panel, 0, 0] * px + frame[panel, 0, 1] * py + frame[panel, 0, 2] * pz
-                t = frame[panel, 1, 0] * px + frame[panel, 1, 1] * py + frame[panel, 1, 2] * pz
-                single[0, row, panel] += one * s
-                single[1, row, panel] += one * t
-                single[2, row, panel] += one * s * s
-                single[3, row, panel] += one * t * t
-                double[0, row, panel] += two * s
-                double[1, row, panel] += two * t
-                double[2, row, panel] += two * s * s
-                double[3, row, panel] += two * t * t
+                _add_moments(one, two, px, py, pz, frame[panel], single[:, row, panel], double[:, row, panel])
 
 
 @njit(cache=True, error_model="numpy", fastmath=REORDER)
@@ -220,17 +226,8 @@ def _log_layers(
                 level = (normal[panel, 0] * rx + normal[panel, 1] * ry) / (r + rz)
                 two = -size[panel, p] / r * (level + normal[panel, 2])
                 px, py, pz = px - centre[panel, 0], py - centre[panel, 1], pz - centre[panel, 2]
-                s = frame[panel, 0, 0] * px + frame[panel, 0, 1] * py + frame[panel, 0, 2] * pz
-                t = frame[panel, 1, 0] * px + frame[panel, 1, 1] * py + frame[panel, 1, 2] * pz
-                single[0, row, panel] += one * s
-                single[1, row, panel] += one * t
-                single[2, row, panel] += one * s * s
-                single[3, row, panel] += one * t * t
+                _add_moments(one, two, px, py, pz, frame[panel], single[:, row, panel], double[:, row, panel])
                 single[4, row, panel] += one
-                double[0, row, panel] += two * s
-                double[1, row, panel] += two * t
-                double[2, row, panel] += two * s * s
-                double[3, row, panel] += two * t * t
                 double[4, row, panel] -= size[panel, p] / r * level
 
 
