@@ -163,6 +163,19 @@ class _Compiler(Compiler):  # type: ignore[misc]
             cut_costs()
         super().__init__(*arguments)
 
+    def define_pipelines(self) -> list[Any]:
+        """Return the steps of numba, with one before machine code is made."""
+        found: list[Any] = super().define_pipelines()
+        if _KNOWN:
+            from numba.core.typed_passes import IRLegalization
+
+            from moyai.core.uncounted import LeaveCountsOut
+
+            for steps in found:
+                steps.add_pass_after(LeaveCountsOut, IRLegalization)
+                steps.finalize()
+        return found
+
 
 class _Part(JITCodeLibrary):  # type: ignore[misc]
     """Code of a kernel that is a part of another one: neither optimised nor made machine code of by itself."""

@@ -165,7 +165,8 @@ class PlanarCarrier:
             np.zeros(0) if model.quadratic is None else np.ascontiguousarray(model.quadratic.coefficients),
         )
         lines, own, _ = packed_lines(model.mooring, 3)
-        nothing = (np.zeros((0, 3)), np.zeros((0, 3)), np.zeros((0, 3)), np.zeros((0, 0)))
+        no_rows = np.zeros((0, 3))
+        nothing = (no_rows, no_rows, no_rows, np.zeros((0, 0)), np.zeros(3), np.zeros(lines[0].shape[0]))
         sides = (np.ascontiguousarray(memory.inputs), np.ascontiguousarray(memory.outputs))
         self._system = (constants, lines, own + np.asarray(body.reaction_at_rest, dtype=float)), (*sides, nothing)
         self._weights: dict[float, tuple[NDArray[np.complex128], ...]] = {}

@@ -28,7 +28,7 @@ from moyai.flexible.result import State
 
 #: Accepted steps after which the step of the network is chosen again: within them a march ends where drag or a drying
 #: part would make the step too long, so that the number is one of speed alone.
-_CHOSEN_FOR = 16
+_CHOSEN_FOR = 64
 #: Steps of the network within one step of a body, at least: mean and tilt of the reaction are sums over them.
 LEAST_STEPS = 16
 

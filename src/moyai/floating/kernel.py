@@ -41,19 +41,26 @@ def mooring_force(position: Any, lines: Any, force: Any, tension: Any) -> None:
 
 
 @njit(cache=True, error_model="numpy")
+def _draw(position: Any, lines: Any, drawn: Any, pulls: Any) -> None:
+    """Write the pull of all lines on the body and the tension of each."""
+    if lines[0].shape[0] > 0:
+        for i in range(drawn.size):
+            drawn[i] = 0.0
+        mooring_force(position, lines, drawn, pulls)
+
+
+@njit(cache=True, error_model="numpy")
 def _acceleration(
-    q: Any, v: Any, memory: Any, external: Any, body: Any, lines: Any, rest: Any, work: Any, pulls: Any, result: Any
+    q: Any, v: Any, memory: Any, external: Any, body: Any, drawn: Any, rest: Any, work: Any, result: Any
 ) -> None:
-    """Write the acceleration: inverse inertia times the sum of all forces [eq:floating-cummins]."""
+    """Write the acceleration: inverse inertia times the sum of all forces, ``drawn`` by lines [eq:floating-cummins]."""
     inverse, damping, stiffness, rows, quadratic = body
     m = q.size
     for i in range(m):
         total = external[i] - memory[i] - rest[i]
         for j in range(m):
             total -= damping[i, j] * v[j] + stiffness[i, j] * q[j]
-        work[i] = total
-    if lines[0].shape[0] > 0:
-        mooring_force(q, lines, work, pulls)
+        work[i] = total + drawn[i]
     # Columns beyond the modes are the motion of the water in the measures of the last rows
     still = quadratic.size - (external.size - m)
     for k in range(quadratic.size):
@@ -106,12 +113,13 @@ def run_state_space(
 
     ``force`` (2 n + 1, m + w) holds the external force at half steps, and the motion of the water in the measures of
     the last w rows of the quadratic damping. ``exponential`` holds exp(h L/2), exp(h L) and the weights Q, f1, f2, f3
-    of ETDRK4. ``saved`` is (position, velocity, mooring force, pulls), rows at every ``every``-th
-    step. Returns the status and the number of good steps.
+    of ETDRK4. ``saved`` is (position, velocity, mooring force, pulls), rows at every ``every``-th step, then force (m,)
+    and pulls of the lines at the present state, which a call leaves to the next. Returns the status and the number of
+    good steps.
     """
     half, full, weight_q, f1, f2, f3 = exponential
     m, n = q.size, z.size
-    work, pulls = np.empty(m), np.zeros(lines[0].shape[0])
+    work, drawn, now, pulls = np.empty(m), np.zeros(m), saved[4], saved[5]
     a1, a2, a3, a4 = np.empty(m), np.empty(m), np.empty(m), np.empty(m)
     q_stage, v2, v3, v4, memory = np.empty(m), np.empty(m), np.empty(m), np.empty(m), np.empty(m)
     n1, n2, n3, n4 = (
@@ -122,10 +130,12 @@ def run_state_space(
     )
     z_a, z_stage = np.empty(n, np.complex128), np.empty(n, np.complex128)
     q_new, v_new, z_new = np.empty(m), np.empty(m), np.empty(n, np.complex128)
+    if first == 0:
+        _draw(q, lines, now, pulls)
     for step in range(steps):
         row = 2 * (first + step)
         _memory_output(outputs, z, memory)
-        _acceleration(q, v, memory, force[row], body, lines, rest, work, pulls, a1)
+        _acceleration(q, v, memory, force[row], body, now, rest, work, a1)
         _memory_input(inputs, v, n1)
         for k in range(n):
             z_a[k] = half[k] * z[k] + weight_q[k] * n1[k]
@@ -133,7 +143,8 @@ def run_state_space(
             q_stage[i] = q[i] + 0.5 * h * v[i]
             v2[i] = v[i] + 0.5 * h * a1[i]
         _memory_output(outputs, z_a, memory)
-        _acceleration(q_stage, v2, memory, force[row + 1], body, lines, rest, work, pulls, a2)
+        _draw(q_stage, lines, drawn, pulls)
+        _acceleration(q_stage, v2, memory, force[row + 1], body, drawn, rest, work, a2)
         _memory_input(inputs, v2, n2)
         for k in range(n):
             z_stage[k] = half[k] * z[k] + weight_q[k] * n2[k]
@@ -141,7 +152,8 @@ def run_state_space(
             q_stage[i] = q[i] + 0.5 * h * v2[i]
             v3[i] = v[i] + 0.5 * h * a2[i]
         _memory_output(outputs, z_stage, memory)
-        _acceleration(q_stage, v3, memory, force[row + 1], body, lines, rest, work, pulls, a3)
+        _draw(q_stage, lines, drawn, pulls)
+        _acceleration(q_stage, v3, memory, force[row + 1], body, drawn, rest, work, a3)
         _memory_input(inputs, v3, n3)
         for k in range(n):
             z_stage[k] = half[k] * z_a[k] + weight_q[k] * (2.0 * n3[k] - n1[k])
@@ -149,7 +161,8 @@ def run_state_space(
             q_stage[i] = q[i] + h * v3[i]
             v4[i] = v[i] + h * a3[i]
         _memory_output(outputs, z_stage, memory)
-        _acceleration(q_stage, v4, memory, force[row + 2], body, lines, rest, work, pulls, a4)
+        _draw(q_stage, lines, drawn, pulls)
+        _acceleration(q_stage, v4, memory, force[row + 2], body, drawn, rest, work, a4)
         _memory_input(inputs, v4, n4)
         for k in range(n):
             z_new[k] = full[k] * z[k] + f1[k] * n1[k] + 2.0 * f2[k] * (n2[k] + n3[k]) + f3[k] * n4[k]
@@ -159,23 +172,29 @@ def run_state_space(
         if _lost(q_new, v_new, limit):
             return DIVERGED, step
         q[:], v[:], z[:] = q_new, v_new, z_new
-        _save(first + step + 1, every, q, v, lines, saved, work, pulls)
+        keep = _is_kept(first + step + 1, every, saved)
+        if keep or steps > 1:
+            # the next step begins with it, also that of the next call
+            _draw(q, lines, now, pulls)
+        if keep:
+            _save((first + step + 1) // every, q, v, saved)
     return RUNNING, steps
 
 
 @njit(cache=True, error_model="numpy")
-def _save(number: int, every: int, q: Any, v: Any, lines: Any, saved: Any, work: Any, pulls: Any) -> None:
-    """Write the state of step ``number`` when it is one of those that are kept."""
-    if number % every != 0 or number // every >= saved[0].shape[0]:
-        return
-    row = number // every
-    saved[0][row] = q
-    saved[1][row] = v
-    if lines[0].shape[0] > 0:
-        work[:] = 0.0
-        mooring_force(q, lines, work, pulls)
-        saved[2][row] = work
-        saved[3][row] = pulls
+def _is_kept(number: int, every: int, saved: Any) -> bool:
+    return number % every == 0 and number // every < saved[0].shape[0]
+
+
+@njit(cache=True, error_model="numpy")
+def _save(row: int, q: Any, v: Any, saved: Any) -> None:
+    """Write a state that is kept, with what lines then draw."""
+    position, velocity, force, tension, now, pulls = saved
+    position[row] = q
+    velocity[row] = v
+    if pulls.size > 0:
+        force[row] = now
+        tension[row] = pulls
 
 
 @njit(cache=True, error_model="numpy")
@@ -189,33 +208,35 @@ def run_convolution(
     The rest as in :func:`run_state_space`.
     """
     m, length = q.size, history.shape[0]
-    work, pulls = np.empty(m), np.zeros(lines[0].shape[0])
+    work, drawn, now, pulls = np.empty(m), np.zeros(m), saved[4], saved[5]
     a1, a2, a3, a4 = np.empty(m), np.empty(m), np.empty(m), np.empty(m)
     q_stage, v2, v3, v4, memory = np.empty(m), np.empty(m), np.empty(m), np.empty(m), np.empty(m)
-    now, middle, end = np.empty(m), np.empty(m), np.empty(m)
+    start, middle, end = np.empty(m), np.empty(m), np.empty(m)
     q_new, v_new = np.empty(m), np.empty(m)
+    if first == 0:
+        _draw(q, lines, now, pulls)
     for step in range(steps):
         number = first + step
         row = 2 * number
         history[number % length] = v
-        now[:], middle[:], end[:] = 0.0, 0.0, 0.0
+        start[:], middle[:], end[:] = 0.0, 0.0, 0.0
         for back in range(min(number + 1, length - 1)):
             past = history[(number - back) % length]
             last = 0.5 if number - back == 0 or back == length - 2 else 1.0
             for i in range(m):
                 for j in range(m):
                     if back > 0:
-                        now[i] += last * kernel[2 * back, i, j] * past[j]
+                        start[i] += last * kernel[2 * back, i, j] * past[j]
                         middle[i] += last * kernel[2 * back + 1, i, j] * past[j]
                     elif number > 0:
-                        now[i] += 0.5 * kernel[0, i, j] * past[j]
+                        start[i] += 0.5 * kernel[0, i, j] * past[j]
                         middle[i] += 0.75 * kernel[1, i, j] * past[j]
                     else:
                         middle[i] += 0.25 * kernel[1, i, j] * past[j]
                     end[i] += last * kernel[2 * back + 2, i, j] * past[j]
         for i in range(m):
-            memory[i] = h * now[i]
-        _acceleration(q, v, memory, force[row], body, lines, rest, work, pulls, a1)
+            memory[i] = h * start[i]
+        _acceleration(q, v, memory, force[row], body, now, rest, work, a1)
         for i in range(m):
             q_stage[i] = q[i] + 0.5 * h * v[i]
             v2[i] = v[i] + 0.5 * h * a1[i]
@@ -223,7 +244,8 @@ def run_convolution(
             memory[i] = h * middle[i]
             for j in range(m):
                 memory[i] += 0.25 * h * kernel[0, i, j] * v2[j]
-        _acceleration(q_stage, v2, memory, force[row + 1], body, lines, rest, work, pulls, a2)
+        _draw(q_stage, lines, drawn, pulls)
+        _acceleration(q_stage, v2, memory, force[row + 1], body, drawn, rest, work, a2)
         for i in range(m):
             q_stage[i] = q[i] + 0.5 * h * v2[i]
             v3[i] = v[i] + 0.5 * h * a2[i]
@@ -231,7 +253,8 @@ def run_convolution(
             memory[i] = h * middle[i]
             for j in range(m):
                 memory[i] += 0.25 * h * kernel[0, i, j] * v3[j]
-        _acceleration(q_stage, v3, memory, force[row + 1], body, lines, rest, work, pulls, a3)
+        _draw(q_stage, lines, drawn, pulls)
+        _acceleration(q_stage, v3, memory, force[row + 1], body, drawn, rest, work, a3)
         for i in range(m):
             q_stage[i] = q[i] + h * v3[i]
             v4[i] = v[i] + h * a3[i]
@@ -239,12 +262,17 @@ def run_convolution(
             memory[i] = h * end[i]
             for j in range(m):
                 memory[i] += 0.5 * h * kernel[0, i, j] * v4[j]
-        _acceleration(q_stage, v4, memory, force[row + 2], body, lines, rest, work, pulls, a4)
+        _draw(q_stage, lines, drawn, pulls)
+        _acceleration(q_stage, v4, memory, force[row + 2], body, drawn, rest, work, a4)
         for i in range(m):
             q_new[i] = q[i] + h / 6.0 * (v[i] + 2.0 * v2[i] + 2.0 * v3[i] + v4[i])
             v_new[i] = v[i] + h / 6.0 * (a1[i] + 2.0 * a2[i] + 2.0 * a3[i] + a4[i])
         if _lost(q_new, v_new, limit):
             return DIVERGED, step
         q[:], v[:] = q_new, v_new
-        _save(number + 1, every, q, v, lines, saved, work, pulls)
+        keep = _is_kept(number + 1, every, saved)
+        if keep or steps > 1:
+            _draw(q, lines, now, pulls)
+        if keep:
+            _save((number + 1) // every, q, v, saved)
     return RUNNING, steps

@@ -55,32 +55,33 @@ def _half_step(
 
 
 @njit(cache=True, error_model="numpy")
-def _lines(
-    q: Array, lines: tuple[Array, IntArray, Array, IntArray, Array], starts: Array, going: BoolArray, work: Array,
+def _draw(
+    q: Array, lines: tuple[Array, IntArray, Array, IntArray, Array], starts: Array, going: BoolArray, drawn: Array,
     pulls: Array,
 ) -> None:  # fmt: skip
-    """Add the pull of all lines to the first three rows of ``work``, lane by lane."""
+    """Write the pull of all lines into the first three rows of ``drawn``, lane by lane."""
     parameters, index, nodes, lookup, pose = lines
+    if parameters.shape[0] == 0:
+        return
     force = np.empty(3)
     for lane in range(LANES):
         if going[lane]:
             for i in range(3):
-                force[i] = work[i, lane]
+                force[i] = 0.0
             planar_line_force(
                 pose[0] + q[0, lane], pose[1] + q[1, lane], pose[2] + q[2, lane], parameters, index, nodes, lookup,
                 starts[lane], force, pulls[lane],
             )  # fmt: skip
             for i in range(3):
-                work[i, lane] = force[i]
+                drawn[i, lane] = force[i]
 
 
 @njit(cache=True, error_model="numpy")
 def _acceleration(
     q: Array, v: Array, memory: Array, force: Array, row: int, body: tuple[Array, Array, Array, Array, Array],
-    lines: tuple[Array, IntArray, Array, IntArray, Array], starts: Array, going: BoolArray, rest: Array, work: Array,
-    pulls: Array, result: Array,
+    drawn: Array, rest: Array, work: Array, result: Array,
 ) -> None:  # fmt: skip
-    """Write the accelerations of all lanes [eq:floating-cummins]."""
+    """Write the accelerations of all lanes, ``drawn`` by lines [eq:floating-cummins]."""
     inverse, damping, stiffness, rows, quadratic = body
     m, columns, last = q.shape[0], force.shape[2], force.shape[0] - 1  # lanes beyond the last record are not kept
     measure = np.empty(LANES)
@@ -91,8 +92,8 @@ def _acceleration(
             a, b = damping[i, j], stiffness[i, j]
             for lane in range(LANES):
                 work[i, lane] -= a * v[j, lane] + b * q[j, lane]
-    if lines[0].shape[0] > 0:
-        _lines(q, lines, starts, going, work, pulls)
+        for lane in range(LANES):
+            work[i, lane] += drawn[i, lane]
     still = quadratic.size - (columns - m)
     for k in range(quadratic.size):
         for lane in range(LANES):
@@ -122,27 +123,31 @@ def run_lanes(
     body: tuple[Array, Array, Array, Array, Array], lines: tuple[Array, IntArray, Array, IntArray, Array],
     starts: Array, rest: Array,
     exponential: tuple[ComplexArray, ComplexArray, ComplexArray, ComplexArray, ComplexArray, ComplexArray],
-    inputs: ComplexArray, outputs: ComplexArray, limit: Array, every: int, saved: tuple[Array, Array, Array, Array],
-    good: IntArray, going: BoolArray,
+    inputs: ComplexArray, outputs: ComplexArray, limit: Array, every: int,
+    saved: tuple[Array, Array, Array, Array, Array, Array], good: IntArray, going: BoolArray,
 ) -> None:  # fmt: skip
     """Advance all lanes that are going; see :func:`moyai.floating.kernel.run_state_space`.
 
     ``q``, ``v`` (m, lanes) and the states of the memory (n, lanes) change in place; ``force`` is (records, 2 n + 1,
-    m + w); ``saved`` as there, records first. ``good`` counts the good steps of each lane; one that is lost stops
+    m + w); ``saved`` as there, records first, force (m, lanes) and pulls (lanes, lines) of
+    the present state. ``good`` counts the good steps of each lane; one that is lost stops
     ``going``.
     """
     half, full, weight, f1, f2, f3 = exponential
     m, n = q.shape[0], real.shape[0]
-    work, memory, pulls = np.empty((m, LANES)), np.empty((m, LANES)), np.zeros((LANES, lines[0].shape[0]))
+    work, memory, drawn = np.empty((m, LANES)), np.empty((m, LANES)), np.zeros((m, LANES))
+    positions, velocities, forces, tensions, now, pulls = saved
     a1, a2, a3, a4 = np.empty((m, LANES)), np.empty((m, LANES)), np.empty((m, LANES)), np.empty((m, LANES))
     place, v2, v3, v4 = np.empty((m, LANES)), np.empty((m, LANES)), np.empty((m, LANES)), np.empty((m, LANES))
     r1, r2, r3, r4 = np.empty((n, LANES)), np.empty((n, LANES)), np.empty((n, LANES)), np.empty((n, LANES))
     i1, i2, i3, i4 = np.empty((n, LANES)), np.empty((n, LANES)), np.empty((n, LANES)), np.empty((n, LANES))
     ra, ia, rs, js = np.empty((n, LANES)), np.empty((n, LANES)), np.empty((n, LANES)), np.empty((n, LANES))
+    if first == 0:
+        _draw(q, lines, starts, going, now, pulls)
     for step in range(steps):
         row = 2 * (first + step)
         _output(outputs, real, imaginary, memory)
-        _acceleration(q, v, memory, force, row, body, lines, starts, going, rest, work, pulls, a1)
+        _acceleration(q, v, memory, force, row, body, now, rest, work, a1)
         _input(inputs, v, r1, i1)
         _half_step(half, weight, real, imaginary, r1, i1, ra, ia)
         for i in range(m):
@@ -150,7 +155,8 @@ def run_lanes(
                 place[i, lane] = q[i, lane] + 0.5 * h * v[i, lane]
                 v2[i, lane] = v[i, lane] + 0.5 * h * a1[i, lane]
         _output(outputs, ra, ia, memory)
-        _acceleration(place, v2, memory, force, row + 1, body, lines, starts, going, rest, work, pulls, a2)
+        _draw(place, lines, starts, going, drawn, pulls)
+        _acceleration(place, v2, memory, force, row + 1, body, drawn, rest, work, a2)
         _input(inputs, v2, r2, i2)
         _half_step(half, weight, real, imaginary, r2, i2, rs, js)
         for i in range(m):
@@ -158,7 +164,8 @@ def run_lanes(
                 place[i, lane] = q[i, lane] + 0.5 * h * v2[i, lane]
                 v3[i, lane] = v[i, lane] + 0.5 * h * a2[i, lane]
         _output(outputs, rs, js, memory)
-        _acceleration(place, v3, memory, force, row + 1, body, lines, starts, going, rest, work, pulls, a3)
+        _draw(place, lines, starts, going, drawn, pulls)
+        _acceleration(place, v3, memory, force, row + 1, body, drawn, rest, work, a3)
         _input(inputs, v3, r3, i3)
         for k in range(n):
             a, b, c, d = half[k].real, half[k].imag, weight[k].real, weight[k].imag
@@ -171,7 +178,8 @@ def run_lanes(
                 place[i, lane] = q[i, lane] + h * v3[i, lane]
                 v4[i, lane] = v[i, lane] + h * a3[i, lane]
         _output(outputs, rs, js, memory)
-        _acceleration(place, v4, memory, force, row + 2, body, lines, starts, going, rest, work, pulls, a4)
+        _draw(place, lines, starts, going, drawn, pulls)
+        _acceleration(place, v4, memory, force, row + 2, body, drawn, rest, work, a4)
         _input(inputs, v4, r4, i4)
         for k in range(n):
             a, b = full[k].real, full[k].imag
@@ -202,18 +210,16 @@ def run_lanes(
         for k in range(n):
             real[k], imaginary[k] = rs[k], js[k]
         number = first + step + 1
-        keep = number % every == 0 and number // every < saved[0].shape[1]
-        if keep and lines[0].shape[0] > 0:
-            for i in range(3):
-                for lane in range(LANES):
-                    work[i, lane] = 0.0
-            _lines(q, lines, starts, going, work, pulls)
+        keep = number % every == 0 and number // every < positions.shape[1]
+        if keep or steps > 1:
+            # the next step begins with it, also that of the next call
+            _draw(q, lines, starts, going, now, pulls)
         for lane in range(LANES):
             if not going[lane]:
                 continue
             good[lane] = number
             if keep:
                 out = number // every
-                saved[0][lane, out], saved[1][lane, out] = q[:, lane], v[:, lane]
+                positions[lane, out], velocities[lane, out] = q[:, lane], v[:, lane]
                 if lines[0].shape[0] > 0:
-                    saved[2][lane, out, :3], saved[3][lane, out] = work[:3, lane], pulls[lane]
+                    forces[lane, out], tensions[lane, out] = now[:, lane], pulls[lane]

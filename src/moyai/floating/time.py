@@ -307,7 +307,8 @@ def simulate(
     lines, rest, line_count = packed_lines(model.mooring, size)
     body = packed_body(model)
     rows = steps // every + 1
-    saved = (np.zeros((rows, size)), np.zeros((rows, size)), np.zeros((rows, size)), np.zeros((rows, line_count)))
+    columns = (size, size, size, line_count)
+    saved = (*(np.zeros((rows, each)) for each in columns), np.zeros(size), np.zeros(line_count))
     saved[0][0], saved[1][0] = q, v
     if model.mooring is not None:
         saved[2][0, :3], saved[3][0] = model.mooring.force_and_tension(q[:3])

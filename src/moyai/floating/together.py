@@ -132,6 +132,7 @@ def _marched(
     starts = np.repeat(lines[5][None], LANES, axis=0)
     rows = steps + 1
     saved = tuple(np.zeros((count, rows, columns)) for columns in (size, size, size, line_count))
+    now = np.zeros((size, LANES)), np.zeros((LANES, line_count))
     if model.mooring is not None:
         saved[2][:, 0, :3], saved[3][:, 0] = model.mooring.force_and_tension(np.zeros(3))
     limit = np.full(size, 1e30 if model.mooring is None else 1e3 * model.mooring.reach)
@@ -147,7 +148,7 @@ def _marched(
             number, began = min(piece, steps - done), clock.perf_counter()
             run_lanes(
                 q, v, real, imaginary, done, number, step, force, packed_body(model), lines[:5], starts, rest, weights,
-                inputs, outputs, limit, 1, saved, good, going,
+                inputs, outputs, limit, 1, (*saved, *now), good, going,
             )  # fmt: skip
             done += number
             spent = clock.perf_counter() - began
