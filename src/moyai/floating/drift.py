@@ -2,12 +2,13 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
-from numpy.typing import ArrayLike
+from numpy.typing import ArrayLike, NDArray
 
-from moyai.core.arrays import Array, ComplexArray
+from moyai.core.arrays import Array, BoolArray, ComplexArray, IntArray
 from moyai.core.options import checks_words
 from moyai.core.progress import Progress, silent
 from moyai.core.validity import Notice
@@ -15,7 +16,6 @@ from moyai.floating.coefficients import Hydrodynamics
 from moyai.floating.damping import EquivalentDamping, LinearDamping, QuadraticDamping
 from moyai.floating.far_field import FarField, drift_force_per_amplitude_squared, far_field
 from moyai.floating.frequency import Motions, solve_motions
-from moyai.floating.irregular import linearised_in_sea
 from moyai.floating.offset import MeanOffset, Mooring, Status, mean_offset
 from moyai.sea.water import Water
 
@@ -80,87 +80,73 @@ class DriftProblem:
         )
 
 
-def _rows(hydrodynamics: Hydrodynamics, rows: slice) -> Hydrodynamics:
-    def taken(values: ComplexArray | None) -> ComplexArray | None:
-        return None if values is None else values[rows]
-
+def _rows(hydrodynamics: Hydrodynamics, rows: IntArray) -> Hydrodynamics:
     return replace(
         hydrodynamics,
         omega=hydrodynamics.omega[rows],
         added_mass=hydrodynamics.added_mass[rows],
         radiation_damping=hydrodynamics.radiation_damping[rows],
         excitation_force=hydrodynamics.excitation_force[rows],
-        reflection_coefficient=taken(hydrodynamics.reflection_coefficient),
-        transmission_coefficient=taken(hydrodynamics.transmission_coefficient),
-        radiated_wave=taken(hydrodynamics.radiated_wave),
+        reflection_coefficient=_taken(hydrodynamics.reflection_coefficient, rows),
+        transmission_coefficient=_taken(hydrodynamics.transmission_coefficient, rows),
+        radiated_wave=_taken(hydrodynamics.radiated_wave, rows),
     )
 
 
+def _taken(values: ComplexArray | None, rows: IntArray) -> ComplexArray | None:
+    return None if values is None else values[rows]
+
+
 @dataclass(frozen=True)
-class _State:
-    motions: Motions
-    far: FarField
-    offset: MeanOffset
+class _Held:
+    """Where drifts hold the body, a row a wave."""
+
+    offsets: tuple[MeanOffset, ...]
+    #: K_M about the offset; shape (n, m, m).
     stiffness: Array
-    force: float
+
+    @property
+    def converged(self) -> BoolArray:
+        return np.array([offset.status == "converged" for offset in self.offsets])
+
+
+def _held(problem: DriftProblem, drift: Array, start: Sequence[MeanOffset | None]) -> _Held:
+    """Return the offsets in drifts (n,) and the stiffness of the lines there."""
+    size, offsets, stiffness = len(problem.inertia), [], []
+    for force, near in zip(drift, start, strict=True):
+        load = np.zeros(size) if problem.steady_force is None else np.array(problem.steady_force, dtype=float)
+        load[0] += force
+        begin = None if near is None or near.status != "converged" else near.position
+        offset = mean_offset(problem.mooring, problem.hydrostatic_stiffness, load, start=begin)
+        position = offset.position if offset.status == "converged" else np.zeros(size)
+        offsets.append(offset)
+        stiffness.append(np.asarray(problem.mooring.stiffness(position), dtype=float))
+    return _Held(tuple(offsets), np.array(stiffness))
 
 
 def _answer(
-    problem: DriftProblem,
-    hydro: Hydrodynamics,
-    drift: float,
-    weight: Array,
-    amplitude: Array,
-    start: Array | None,
-    with_drift: bool,
-    density: Array | None,
-    near: _State | None = None,
-    held: tuple[MeanOffset, Array] | None = None,
-) -> _State:
-    """Return the motions about the offset of a given drift, and the drift that they cause.
+    problem: DriftProblem, hydro: Hydrodynamics, held: _Held, amplitude: Array, near: Motions | None = None
+) -> tuple[Motions, FarField, Array]:
+    """Return the motions of waves about their offsets, the waves that they radiate, and the drifts (n,) [N].
 
-    ``near`` is the state in a drift nearby, from which the linearisation continues; ``held`` is that of :func:`_held`.
+    ``near`` are motions in drifts nearby, from which the linearisation continues.
     """
-    offset, stiffness = held or _held(problem, drift, start)
-    total = problem.hydrostatic_stiffness + stiffness
     nonlinear = problem.quadratic is not None or problem.line_damping is not None
-    if density is not None and nonlinear:
-        motions = linearised_in_sea(
-            hydro,
-            problem.inertia,
-            total,
-            density,
-            quadratic=problem.quadratic,
-            line_damping=problem.line_damping,
-            damping=problem.damping,
-            water_motion=problem.water_motion,
-        ).motions
-    else:
-        motions = solve_motions(
-            hydro,
-            problem.inertia,
-            total,
-            damping=problem.damping,
-            quadratic=problem.quadratic,
-            line_damping=problem.line_damping,
-            wave_amplitude=amplitude[:, None] if nonlinear else None,
-            water_motion=problem.water_motion,
-            start=None if near is None else near.motions,
-        )
+    motions = solve_motions(
+        hydro,
+        problem.inertia,
+        problem.hydrostatic_stiffness + held.stiffness,
+        damping=problem.damping,
+        quadratic=problem.quadratic,
+        line_damping=problem.line_damping,
+        wave_amplitude=amplitude[:, None] if nonlinear else None,
+        water_motion=problem.water_motion,
+        start=near,
+        apart=True,
+    )
     far = far_field(hydro, motions.displacement)
     per_square = drift_force_per_amplitude_squared(far, hydro.omega, hydro.heading, problem.water, hydro.length)[:, 0]
-    force = float(np.sum(weight * per_square)) if with_drift else 0.0
-    return _State(motions, far, offset, stiffness, force)
-
-
-def _held(problem: DriftProblem, drift: float, start: Array | None) -> tuple[MeanOffset, Array]:
-    """Return the offset in a drift and the stiffness of the lines there."""
-    size = len(problem.inertia)
-    load = np.zeros(size) if problem.steady_force is None else np.array(problem.steady_force, dtype=float)
-    load[0] += drift
-    offset = mean_offset(problem.mooring, problem.hydrostatic_stiffness, load, start=start)
-    position = offset.position if offset.status == "converged" else np.zeros(size)
-    return offset, np.asarray(problem.mooring.stiffness(position), dtype=float)
+    return motions, far, amplitude**2 * per_square
 
 
 @checks_words
@@ -200,71 +186,99 @@ def solve_with_drift(
     hydro = problem.one_heading()
     count = len(hydro.omega)
     amplitude = np.zeros(count) + np.asarray(wave_amplitude, dtype=float)
-    if not with_drift:
-        # all waves share one offset
-        state = _answer(problem, hydro, 0.0, amplitude**2, amplitude, None, with_drift, None)
-        found = _joined(hydro, [state], amplitude, np.ones(count), (state.offset.status,) * count)
-        return replace(
-            found,
-            drift_force=np.zeros(count),
-            offset=np.tile(state.offset.position, (count, 1)),
-            mooring_stiffness=np.tile(state.stiffness, (count, 1, 1)),
+    # without drift all waves share one offset
+    rest = _held(problem, np.zeros(1), [None])
+    held = _Held(rest.offsets * count, np.repeat(rest.stiffness, count, axis=0))
+    motions, far, force = _answer(problem, hydro, held, amplitude)
+    iterations, status = np.ones(count), np.where(held.converged, "converged", "not_converged")
+    if with_drift:
+        held, iterations, status = _loop(
+            problem, hydro, amplitude, held, motions, force, tolerance, maximum_iterations, progress
         )
-    states: list[_State] = []
-    iterations, statuses = np.zeros(count), []
-    without_drift = _held(problem, 0.0, None)
-    for index in range(count):
-        progress("drift loop", index, count)
-        rows = slice(index, index + 1)
-        moving = None if problem.water_motion is None else problem.water_motion[rows]
-        state, used, status = _loop(
-            replace(problem, water_motion=moving),
-            _rows(hydro, rows),
-            amplitude[rows] ** 2,
-            amplitude[rows],
-            tolerance,
-            maximum_iterations,
-            held=without_drift,
-        )
-        states.append(state)
-        iterations[index] = used
-        statuses.append(status)
-    progress("drift loop", count, count)
-    return _joined(hydro, states, amplitude, iterations, tuple(statuses))
+        motions, far, force = _answer(problem, hydro, held, amplitude, motions)
+    statuses: tuple[Status, ...] = tuple(status.tolist())
+    return DriftedMotions(
+        motions=motions,
+        far=far,
+        drift_force=force if with_drift else np.zeros(count),
+        offset=np.array([offset.position for offset in held.offsets]),
+        mooring_stiffness=held.stiffness,
+        iterations=iterations,
+        status=statuses,
+        notices=_loop_notices(statuses, hydro.omega) if with_drift else (),
+    )
 
 
 def _loop(
     problem: DriftProblem,
     hydro: Hydrodynamics,
-    weight: Array,
     amplitude: Array,
+    held: _Held,
+    motions: Motions,
+    caused: Array,
     tolerance: float,
     maximum_iterations: int,
-    density: Array | None = None,
-    held: tuple[MeanOffset, Array] | None = None,
-) -> tuple[_State, int, Status]:
-    """Find the drift force that causes itself [eq:floating-drift-loop]; ``held`` is the state without drift."""
-    force = 0.0
-    state = _answer(problem, hydro, force, weight, amplitude, None, True, density, held=held)
-    previous_force, previous_gap = force, state.force - force
-    force = 0.5 * (force + state.force)
-    used = 1
-    while used < maximum_iterations:
-        start = state.offset.position if state.offset.status == "converged" else None
-        state = _answer(problem, hydro, force, weight, amplitude, start, True, density, state)
-        used += 1
-        gap = state.force - force
-        if not np.isfinite(gap) or state.offset.status != "converged":
-            return state, used, "not_converged"
-        if abs(gap) <= tolerance * max(abs(state.force), abs(force), 1e-300):
-            return state, used, "converged"
-        next_force = force + 0.5 * gap
-        if gap != previous_gap:
-            secant = force - gap * (force - previous_force) / (gap - previous_gap)
-            if abs(secant - force) <= 4.0 * abs(force - previous_force):
-                next_force = secant
-        previous_force, previous_gap, force = force, gap, next_force
-    return state, used, "not_converged"
+    progress: Progress,
+) -> tuple[_Held, Array, NDArray[np.str_]]:
+    """Find for each wave the drift that causes itself [eq:floating-drift-loop]; return where it holds the body.
+
+    ``held``, ``motions`` and ``caused``, the drifts, are those of no drift. All waves go on together, each until it
+    has settled. Rounds and the status of each come with the answer.
+    """
+    count = len(amplitude)
+    offsets, stiffness = list(held.offsets), held.stiffness.copy()
+    previous_force, previous_gap, force = np.zeros(count), caused.copy(), 0.5 * caused
+    used, status = np.ones(count), np.full(count, "not_converged")
+    going = np.arange(count)
+    for _ in range(1, maximum_iterations):
+        progress("drift loop", count - len(going), count)
+        if not len(going):
+            break
+        held = _held(problem, force[going], [offsets[row] for row in going])
+        part = replace(problem, water_motion=_taken(problem.water_motion, going))
+        found, _, drift = _answer(part, _rows(hydro, going), held, amplitude[going], _of_rows(motions, going))
+        motions = _with_rows(motions, found, going)
+        for row, offset, matrix in zip(going, held.offsets, held.stiffness, strict=True):
+            offsets[row], stiffness[row] = offset, matrix
+        used[going] += 1
+        gap = drift - force[going]
+        lost = ~np.isfinite(gap) | ~held.converged
+        near = np.abs(gap) <= tolerance * np.maximum(np.maximum(np.abs(drift), np.abs(force[going])), 1e-300)
+        status[going[near & ~lost]] = "converged"
+        on = ~(lost | near)
+        force[going], previous_force[going], previous_gap[going] = (
+            _next_force(force[going], gap, previous_force[going], previous_gap[going]), force[going], gap,
+        )  # fmt: skip
+        going = going[on]
+    progress("drift loop", count, count)
+    return _Held(tuple(offsets), stiffness), used, status
+
+
+def _next_force(force: Array, gap: Array, previous_force: Array, previous_gap: Array) -> Array:
+    """Return the next guess of the drifts: half of the way, or the secant where it does not leap."""
+    half = force + 0.5 * gap
+    turned = gap - previous_gap
+    with np.errstate(invalid="ignore"):
+        secant = force - gap * (force - previous_force) / np.where(turned != 0.0, turned, 1.0)
+        calm = (turned != 0.0) & (np.abs(secant - force) <= 4.0 * np.abs(force - previous_force))
+    return np.where(calm, secant, half)
+
+
+def _of_rows(motions: Motions, rows: IntArray) -> Motions:
+    return replace(
+        motions, omega=motions.omega[rows], displacement=motions.displacement[rows], damping=motions.damping[rows],
+        wave_amplitude=motions.wave_amplitude[rows], drag_excitation=_taken(motions.drag_excitation, rows),
+    )  # fmt: skip
+
+
+def _with_rows(motions: Motions, found: Motions, rows: IntArray) -> Motions:
+    """Return the motions with those of some waves replaced."""
+    displacement, damping, carried = motions.displacement.copy(), motions.damping.copy(), motions.drag_excitation
+    displacement[rows], damping[rows] = found.displacement, found.damping
+    if carried is not None and found.drag_excitation is not None:
+        carried = carried.copy()
+        carried[rows] = found.drag_excitation
+    return replace(motions, displacement=displacement, damping=damping, drag_excitation=carried)
 
 
 def _loop_notices(status: tuple[Status, ...], omega: Array) -> tuple[Notice, ...]:
@@ -279,46 +293,4 @@ def _loop_notices(status: tuple[Status, ...], omega: Array) -> tuple[Notice, ...
             severity="error",
             remedy="look whether the lines can hold the steady load, or lower the wave height",
         ),
-    )
-
-
-def _carried(states: list[_State]) -> ComplexArray | None:
-    found = [state.motions.drag_excitation for state in states if state.motions.drag_excitation is not None]
-    return np.concatenate(found) if len(found) == len(states) else None
-
-
-def _joined(
-    hydro: Hydrodynamics,
-    states: list[_State],
-    amplitude: Array,
-    iterations: Array,
-    status: tuple[Status, ...],
-) -> DriftedMotions:
-    """Join the waves of :func:`solve_with_drift` along frequency."""
-    motions = Motions(
-        omega=hydro.omega,
-        heading=hydro.heading,
-        modes=hydro.modes,
-        displacement=np.concatenate([state.motions.displacement for state in states]),
-        damping=np.concatenate([state.motions.damping for state in states]),
-        wave_amplitude=amplitude[:, None],
-        iterations=max(state.motions.iterations for state in states),
-        notices=tuple({notice.message: notice for state in states for notice in state.motions.notices}.values()),
-        drag_excitation=_carried(states),
-    )
-    far = FarField(
-        *(
-            np.concatenate([getattr(state.far, name) for state in states])
-            for name in ("reflection_coefficient", "transmission_coefficient", "loss", "drift_coefficient")
-        )
-    )
-    return DriftedMotions(
-        motions=motions,
-        far=far,
-        drift_force=np.array([state.force for state in states]),
-        offset=np.array([state.offset.position for state in states]),
-        mooring_stiffness=np.array([state.stiffness for state in states]),
-        iterations=iterations,
-        status=status,
-        notices=_loop_notices(status, hydro.omega),
     )

@@ -11,7 +11,7 @@ from numpy.typing import ArrayLike
 from moyai.core.arrays import Array, ComplexArray
 from moyai.core.errors import InputError
 from moyai.core.validity import IdentityCheck, Notice
-from moyai.floating.arrays import square_matrix
+from moyai.floating.arrays import finite, square_matrix
 from moyai.floating.coefficients import Hydrodynamics
 from moyai.floating.damping import EquivalentDamping, LinearDamping, QuadraticDamping
 
@@ -112,6 +112,7 @@ def solve_motions(
     wave_amplitude: ArrayLike | None = None,
     water_motion: ComplexArray | None = None,
     start: Motions | None = None,
+    apart: bool = False,
     tolerance: float = 1e-10,
     maximum_iterations: int = 200,
 ) -> Motions:
@@ -124,8 +125,8 @@ def solve_motions(
         is, per metre: inertia, stiffness and damping are then per metre too.
     inertia : array_like (m, m)
         M.
-    stiffness : array_like (m, m)
-        Hydrostatic and mooring restoring K_H + K_M.
+    stiffness : array_like (m, m) or (n, m, m)
+        Hydrostatic and mooring restoring K_H + K_M, of all frequencies or of each.
     damping : LinearDamping or None
         Beyond radiation; the fraction of critical takes the added mass at the wave frequency.
     quadratic : QuadraticDamping or None
@@ -138,6 +139,8 @@ def solve_motions(
         What the water does in the measures of ``quadratic``, per unit wave amplitude; still water when absent.
     start : Motions or None
         With a stiffness nearby, from which the iteration continues.
+    apart : bool
+        Whether the iteration of each frequency ends by itself, as it would alone; else that of all ends together.
     tolerance : float
         Relative change of the velocities at which the iteration ends.
     maximum_iterations : int
@@ -172,7 +175,13 @@ def solve_motions(
     hydrodynamics = Hydrodynamics.of(hydrodynamics)
     size, count, headings = hydrodynamics.size, len(hydrodynamics.omega), len(hydrodynamics.heading)
     inertia = square_matrix(inertia, size, "inertia")
-    stiffness = square_matrix(stiffness, size, "stiffness")
+    each = np.ndim(stiffness) == 3
+    stiffness = np.asarray(stiffness, dtype=float)
+    stiffness = finite(stiffness, "stiffness") if each else square_matrix(stiffness, size, "stiffness")
+    if each and stiffness.shape != (count, size, size):
+        raise InputError(
+            f"stiffness has the shape {stiffness.shape}", parameter="stiffness", allowed=f"({count}, {size}, {size})"
+        )
     linear = LinearDamping.none(size) if damping is None else damping
     constant = linear.at(inertia, hydrodynamics.added_mass, stiffness)
     constant = np.broadcast_to(constant[:, None], (count, headings, size, size))
@@ -183,12 +192,13 @@ def solve_motions(
     omega = np.broadcast_to(hydrodynamics.omega[:, None], (count, headings))
     mass = (inertia + hydrodynamics.added_mass)[:, None]
     radiation = hydrodynamics.radiation_damping[:, None]
+    restoring = stiffness[:, None] if each else stiffness
 
     carried = np.zeros((count, headings, size), dtype=np.complex128)
 
     def solution(extra: Array, carried: ComplexArray) -> tuple[ComplexArray, Array]:
         right = hydrodynamics.excitation_force + carried
-        return solve_scaled(dynamic_stiffness(omega, mass, radiation + extra, stiffness), right)
+        return solve_scaled(dynamic_stiffness(omega, mass, radiation + extra, restoring), right)
 
     extra, added, started_near = constant, np.zeros_like(constant), start is not None and iterated
     if start is not None and iterated:
@@ -203,22 +213,26 @@ def solve_motions(
             started = solution(extra + first.at(inertia, hydrodynamics.added_mass, stiffness)[:, None], carried)[0]
             displacement = np.where(np.isnan(displacement), started, displacement)
         displacement = np.nan_to_num(displacement)
-        change = np.inf
+        change, goes_on = np.inf, np.ones((count, 1, 1), dtype=bool)
         while change > tolerance and iterations < maximum_iterations:
             iterations += 1
             velocity = -1j * np.abs(amplitude)[..., None] * omega[..., None] * displacement
             target, driven = _equivalent(velocity, omega, quadratic, line_damping, water_motion, amplitude)
             # Half steps: near resonance the full step overshoots by as much as it should have gone
-            goes_on = started_near or iterations > 1
-            added = 0.5 * (added + target) if goes_on else target
-            carried = 0.5 * (carried + driven) if goes_on else driven
+            half = started_near or iterations > 1
+            target, driven = (0.5 * (added + target), 0.5 * (carried + driven)) if half else (target, driven)
+            added = np.where(goes_on[..., None], target, added)
+            carried = np.where(goes_on, driven, carried)
             extra = constant + added
             updated, condition = solution(extra, carried)
-            bad = np.isnan(updated)
-            moved = np.abs(np.where(bad, 0.0, updated) - displacement)
-            reference = np.max(np.abs(np.where(bad, 0.0, updated)), axis=(0, 1), keepdims=True)
-            change = float(np.max(moved / np.where(reference > 0.0, reference, 1.0)))
-            displacement = np.where(bad, 0.0, updated)
+            updated = np.where(np.isnan(updated), 0.0, updated)
+            moved = np.where(goes_on, np.abs(updated - displacement), 0.0)
+            reference = np.max(np.abs(updated), axis=1 if apart else (0, 1), keepdims=True)
+            off = np.max(moved / np.where(reference > 0.0, reference, 1.0), axis=(1, 2), keepdims=True)
+            change = float(np.max(off))
+            displacement = updated
+            if apart:
+                goes_on = goes_on & (off > tolerance)
         displacement[condition > SINGULAR] = np.nan
     notices = _notices(hydrodynamics, condition, change > tolerance, change, iterations)
     return Motions(

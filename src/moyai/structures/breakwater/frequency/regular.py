@@ -137,7 +137,7 @@ def regular_sea(model: FrequencyModel, sea: RegularSea, progress: Progress = sil
         **{name: (("period", "line"), values) for name, values in tension.items()},
     }
     if tangent is not solved:
-        with_tangent = np.abs(tangent.motions.displacement[:, 0, :]) * amplitude[:, None]
+        with_tangent = np.abs(tangent.motions.displacement[:, 0, :] * amplitude[:, None])
         out["motion_amplitude_with_tangent"] = (("period", "dof"), with_tangent)
     out |= far_field_variables(solved.far, hydro, unit, dims) if hydro.has_far_field else {}
     out |= equivalent_variables(
