@@ -56,14 +56,13 @@ def _half_step(
 
 @njit(cache=True, error_model="numpy")
 def _draw(
-    q: Array, lines: tuple[Array, IntArray, Array, IntArray, Array], starts: Array, going: BoolArray, drawn: Array,
-    pulls: Array,
+    q: Array, lines: tuple[Array, IntArray, Array, IntArray, Array], starts: Array, going: BoolArray, force: Array,
+    drawn: Array, pulls: Array,
 ) -> None:  # fmt: skip
-    """Write the pull of all lines into the first three rows of ``drawn``, lane by lane."""
+    """Write the pull of all lines into the first three rows of ``drawn``, lane by lane; ``force`` (3,) is room."""
     parameters, index, nodes, lookup, pose = lines
     if parameters.shape[0] == 0:
         return
-    force = np.empty(3)
     for lane in range(LANES):
         if going[lane]:
             for i in range(3):
@@ -79,12 +78,11 @@ def _draw(
 @njit(cache=True, error_model="numpy")
 def _acceleration(
     q: Array, v: Array, memory: Array, force: Array, row: int, body: tuple[Array, Array, Array, Array, Array],
-    drawn: Array, rest: Array, work: Array, result: Array,
+    drawn: Array, rest: Array, measure: Array, work: Array, result: Array,
 ) -> None:  # fmt: skip
-    """Write the accelerations of all lanes, ``drawn`` by lines [eq:floating-cummins]."""
+    """Write the accelerations of all lanes, ``drawn`` by lines [eq:floating-cummins]; ``measure`` (lanes,) is room."""
     inverse, damping, stiffness, rows, quadratic = body
     m, columns, last = q.shape[0], force.shape[2], force.shape[0] - 1  # lanes beyond the last record are not kept
-    measure = np.empty(LANES)
     for i in range(m):
         for lane in range(LANES):
             work[i, lane] = force[min(lane, last), row, i] - memory[i, lane] - rest[i]
@@ -136,6 +134,7 @@ def run_lanes(
     half, full, weight, f1, f2, f3 = exponential
     m, n = q.shape[0], real.shape[0]
     work, memory, drawn = np.empty((m, LANES)), np.empty((m, LANES)), np.zeros((m, LANES))
+    measure, pull = np.empty(LANES), np.empty(3)
     positions, velocities, forces, tensions, now, pulls = saved
     a1, a2, a3, a4 = np.empty((m, LANES)), np.empty((m, LANES)), np.empty((m, LANES)), np.empty((m, LANES))
     place, v2, v3, v4 = np.empty((m, LANES)), np.empty((m, LANES)), np.empty((m, LANES)), np.empty((m, LANES))
@@ -143,11 +142,11 @@ def run_lanes(
     i1, i2, i3, i4 = np.empty((n, LANES)), np.empty((n, LANES)), np.empty((n, LANES)), np.empty((n, LANES))
     ra, ia, rs, js = np.empty((n, LANES)), np.empty((n, LANES)), np.empty((n, LANES)), np.empty((n, LANES))
     if first == 0:
-        _draw(q, lines, starts, going, now, pulls)
+        _draw(q, lines, starts, going, pull, now, pulls)
     for step in range(steps):
         row = 2 * (first + step)
         _output(outputs, real, imaginary, memory)
-        _acceleration(q, v, memory, force, row, body, now, rest, work, a1)
+        _acceleration(q, v, memory, force, row, body, now, rest, measure, work, a1)
         _input(inputs, v, r1, i1)
         _half_step(half, weight, real, imaginary, r1, i1, ra, ia)
         for i in range(m):
@@ -155,8 +154,8 @@ def run_lanes(
                 place[i, lane] = q[i, lane] + 0.5 * h * v[i, lane]
                 v2[i, lane] = v[i, lane] + 0.5 * h * a1[i, lane]
         _output(outputs, ra, ia, memory)
-        _draw(place, lines, starts, going, drawn, pulls)
-        _acceleration(place, v2, memory, force, row + 1, body, drawn, rest, work, a2)
+        _draw(place, lines, starts, going, pull, drawn, pulls)
+        _acceleration(place, v2, memory, force, row + 1, body, drawn, rest, measure, work, a2)
         _input(inputs, v2, r2, i2)
         _half_step(half, weight, real, imaginary, r2, i2, rs, js)
         for i in range(m):
@@ -164,8 +163,8 @@ def run_lanes(
                 place[i, lane] = q[i, lane] + 0.5 * h * v2[i, lane]
                 v3[i, lane] = v[i, lane] + 0.5 * h * a2[i, lane]
         _output(outputs, rs, js, memory)
-        _draw(place, lines, starts, going, drawn, pulls)
-        _acceleration(place, v3, memory, force, row + 1, body, drawn, rest, work, a3)
+        _draw(place, lines, starts, going, pull, drawn, pulls)
+        _acceleration(place, v3, memory, force, row + 1, body, drawn, rest, measure, work, a3)
         _input(inputs, v3, r3, i3)
         for k in range(n):
             a, b, c, d = half[k].real, half[k].imag, weight[k].real, weight[k].imag
@@ -178,8 +177,8 @@ def run_lanes(
                 place[i, lane] = q[i, lane] + h * v3[i, lane]
                 v4[i, lane] = v[i, lane] + h * a3[i, lane]
         _output(outputs, rs, js, memory)
-        _draw(place, lines, starts, going, drawn, pulls)
-        _acceleration(place, v4, memory, force, row + 2, body, drawn, rest, work, a4)
+        _draw(place, lines, starts, going, pull, drawn, pulls)
+        _acceleration(place, v4, memory, force, row + 2, body, drawn, rest, measure, work, a4)
         _input(inputs, v4, r4, i4)
         for k in range(n):
             a, b = full[k].real, full[k].imag
@@ -213,7 +212,7 @@ def run_lanes(
         keep = number % every == 0 and number // every < positions.shape[1]
         if keep or steps > 1:
             # the next step begins with it, also that of the next call
-            _draw(q, lines, starts, going, now, pulls)
+            _draw(q, lines, starts, going, pull, now, pulls)
         for lane in range(LANES):
             if not going[lane]:
                 continue

@@ -89,8 +89,9 @@ def table_force(
 
 @njit(cache=True, error_model="numpy")
 def _exact_segmented(
-    x: float, z: float, rows: Array, clearance: float, friction: float, start: float
+    x: float, z: float, nodes: Array, first: int, count: int, clearance: float, friction: float, start: float
 ) -> tuple[float, float]:
+    rows = nodes[first : first + 4 * count].reshape((count, 4))
     state = np.empty(11)
     piece = np.empty(6)
     h, _, _, _ = solve_segments(x, z, rows, clearance == 0.0, friction, start, state, piece)
@@ -172,10 +173,10 @@ def planar_line_force(
                         memory[i],
                     )
                 else:
-                    first = index[i, ROWS]
-                    count = index[i, ROW_COUNT]
-                    rows = nodes[first : first + 4 * count].reshape((count, 4))
-                    h, v = _exact_segmented(x, z, rows, parameters[i, CLEARANCE], parameters[i, FRICTION], memory[i])
+                    h, v = _exact_segmented(
+                        x, z, nodes, index[i, ROWS], index[i, ROW_COUNT], parameters[i, CLEARANCE],
+                        parameters[i, FRICTION], memory[i],
+                    )  # fmt: skip
                 memory[i] = h
             tension[i] = np.sqrt(h * h + v * v)
             fx = -h * dx / x if x > 0.0 else 0.0

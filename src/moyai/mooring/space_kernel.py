@@ -5,6 +5,8 @@ The exact solver starts from the last horizontal tension of a line, so that a st
 
 from __future__ import annotations
 
+from typing import Any
+
 import numpy as np
 
 from moyai.core.arrays import Array, IntArray
@@ -23,14 +25,12 @@ _LOOKUP, _XI_BINS, _Z_BINS = pk.LOOKUP, pk.XI_BINS, pk.Z_BINS
 
 
 @njit(cache=True, error_model="numpy")
-def _rotation(roll: float, pitch: float, yaw: float, turn: Array) -> None:
-    """Write the rotation (3, 3) of turns about x, y, z."""
-    cr, sr = np.cos(roll), np.sin(roll)
-    cp, sp = np.cos(pitch), np.sin(pitch)
-    cy, sy = np.cos(yaw), np.sin(yaw)
-    turn[0, 0], turn[0, 1], turn[0, 2] = cy * cp, cy * sp * sr - sy * cr, cy * sp * cr + sy * sr
-    turn[1, 0], turn[1, 1], turn[1, 2] = sy * cp, sy * sp * sr + cy * cr, sy * sp * cr - cy * sr
-    turn[2, 0], turn[2, 1], turn[2, 2] = -sp, cp * sr, cp * cr
+def _turned(a: float, b: float, c: float, cosines: Any, sines: Any) -> tuple[float, float, float]:
+    """Return a vector turned about x, y and z."""
+    (cr, cp, cy), (sr, sp, sy) = cosines, sines
+    x = cy * cp * a + (cy * sp * sr - sy * cr) * b + (cy * sp * cr + sy * sr) * c
+    y = sy * cp * a + (sy * sp * sr + cy * cr) * b + (sy * sp * cr - cy * sr) * c
+    return x, y, -sp * a + cp * sr * b + cp * cr * c
 
 
 @njit(cache=True, error_model="numpy")
@@ -62,17 +62,15 @@ def space_line_force(
     tension : ndarray (lines,)
         Receives the fairlead tension of one copy [N].
     """
-    turn, holder = np.empty((3, 3)), -1
+    holder, cosines, sines = -1, (1.0, 1.0, 1.0), (0.0, 0.0, 0.0)
     for i in range(parameters.shape[0]):
         first = 6 * body[i]
         row = parameters[i]
         if body[i] != holder:
             holder = body[i]
-            _rotation(position[first + 3], position[first + 4], position[first + 5], turn)
-        a, b, c = row[_FAIRLEAD], row[_FAIRLEAD + 1], row[_FAIRLEAD + 2]
-        arm_x = turn[0, 0] * a + turn[0, 1] * b + turn[0, 2] * c
-        arm_y = turn[1, 0] * a + turn[1, 1] * b + turn[1, 2] * c
-        arm_z = turn[2, 0] * a + turn[2, 1] * b + turn[2, 2] * c
+            roll, pitch, yaw = position[first + 3], position[first + 4], position[first + 5]
+            cosines, sines = (np.cos(roll), np.cos(pitch), np.cos(yaw)), (np.sin(roll), np.sin(pitch), np.sin(yaw))
+        arm_x, arm_y, arm_z = _turned(row[_FAIRLEAD], row[_FAIRLEAD + 1], row[_FAIRLEAD + 2], cosines, sines)
         dx = position[first] + arm_x - row[_ANCHOR]
         dy = position[first + 1] + arm_y - row[_ANCHOR + 1]
         dz = position[first + 2] + arm_z - row[_ANCHOR + 2]
@@ -97,9 +95,10 @@ def space_line_force(
                         level, dz, row[_LENGTH], row[_AXIAL], row[_WEIGHT], row[_CLEARANCE], row[_FRICTION], memory[i]
                     )
                 else:
-                    start, count = index[i, _ROWS], index[i, _ROW_COUNT]
-                    rows = nodes[start : start + 4 * count].reshape((count, 4))
-                    h, v = _exact_segmented(level, dz, rows, row[_CLEARANCE], row[_FRICTION], memory[i])
+                    h, v = _exact_segmented(
+                        level, dz, nodes, index[i, _ROWS], index[i, _ROW_COUNT], row[_CLEARANCE], row[_FRICTION],
+                        memory[i],
+                    )  # fmt: skip
                 memory[i] = h
             tension[i] = np.sqrt(h * h + v * v)
         fx = -row[_COUNT] * h * dx / level if level > 0.0 else 0.0

@@ -10,6 +10,7 @@ from moyai.mooring.table import compile_lines
 from moyai.structures.units.bem import panels_of
 from moyai.structures.units.hydrodynamics import solve_row
 from moyai.structures.units.mesh import row_mesh
+from moyai.structures.units.time import kernel
 from moyai.structures.units.time import model as model_in_time
 from moyai.structures.units.time.model import RowInTime
 from moyai.validation.units import WATER
@@ -82,6 +83,35 @@ def test_a_run_on_tables_is_that_on_exact_lines(monkeypatch):
     assert 0.0 < np.abs(tables.tension - exact.tension).max() < 1e-3 * exact.tension.max()
     # a force wrong by 1e-4 of the tension moves the row by a few times that near resonance
     assert np.abs(tables.position - exact.position).max() < 5e-4 * np.abs(exact.position).max()
+
+
+def test_a_pass_that_is_left_out_would_have_changed_nothing(monkeypatch):
+    """Lines that come taut: every step with another pass, against steps that end where it is known to bring nothing."""
+    at = moored()
+    memory = memory_of(at.size)
+    step = 0.1
+    time = step * np.arange(2500)
+    load = np.zeros((len(time), at.size))
+    load[:, [0, 6]] = 1.5e6 * np.sin(1.1 * time)[:, None] * np.minimum(time / 20.0, 1.0)[:, None]
+    quick = RowInTime(at, memory, np.zeros(at.size), 1.1).run(load, step)
+    march, seen = kernel.march, []
+
+    def step_by_step(y, v, a, z, first, steps, h, load, body, memory, held, lines, joints, drag, limit, saved):
+        for number in range(first, first + steps):
+            seen.append(lines[-1][0])
+            lines[-1][:] = 0.0
+            code, good = march(y, v, a, z, number, 1, h, load, body, memory, held, lines, joints, drag, limit, saved)
+            if code:
+                return code, number - first + good
+        return 0, steps
+
+    monkeypatch.setattr(kernel, "march", step_by_step)
+    slow = RowInTime(at, memory, np.zeros(at.size), 1.1).run(load, step)
+    assert slow.tension.max() > 3.0 * slow.tension.mean()
+    # a pass brings far less than the one before, also with the lines taut
+    assert 1e-3 < max(seen) < 1e-2
+    assert np.abs(quick.tension - slow.tension).max() < 1e-8 * slow.tension.max()
+    assert np.abs(quick.position - slow.position).max() < 1e-8 * np.abs(slow.position).max()
 
 
 def test_coefficients_at_some_of_their_frequencies_are_those():

@@ -317,6 +317,6 @@ def test_the_compiled_step_draws_a_line_whose_ends_meet_as_the_row_at_rest_does(
         position[6:9] = -link.span * link.axis
         position[6] += aside
         drawn, along = np.zeros(1), np.zeros((1, 12))
-        _draw(position, np.eye(12), pairs, arms, bends, axes, spans, drawn, along)
+        _draw(position, np.eye(12), pairs, arms, bends, axes, spans, np.empty((5, 3)), drawn, along)
         assert drawn[0] == pytest.approx(float(link.elongation(position)), abs=1e-12)
         assert np.allclose(along[0], link.along(position), rtol=1e-12, atol=1e-12)

@@ -22,6 +22,11 @@ _PASSES, _TURNS, _SWEEPS, _HALVINGS = 40, 60, 400, 80
 _SETTLED = 1e-8
 #: Change of the force of lines, of that at rest, below which it is no larger than its rounding lets it be settled
 _AT_REST = 1e-4
+#: Change of what lines push, over the largest force of lines, at which a step has settled. A pass brings a share of the
+#: change of the pass before; a step ends one pass sooner where that share, as found in one of the last steps, times a
+#: factor of caution, leads below it.
+_SETTLED_PUSH = 1e-7
+_CAUTION, _UNSEEN, _FORGOTTEN = 100.0, 8.0, 0.9
 #: Share of the largest motion that an elongation may miss, change of its derivative within a pass of the step
 _STRAIGHT, _DIRECTION = 1e-10, 1e-5
 
@@ -58,10 +63,10 @@ def joint_force(elongation: float, rate: float, x: Any, f: Any, dashpot: float, 
 
 @njit(cache=True, error_model="numpy")
 def _draw(
-    y: Any, basis: Any, pairs: Any, arms: Any, bends: Any, axes: Any, spans: Any, drawn: Any, along: Any
+    y: Any, basis: Any, pairs: Any, arms: Any, bends: Any, axes: Any, spans: Any, room: Any, drawn: Any, along: Any
 ) -> None:  # fmt: skip
-    """Write elongation (j,) and its derivative by y (j, r) of every curve at y [eq:units-turned]."""
-    moved, turn, direction, part = np.empty(3), np.empty((2, 3)), np.empty(3), np.empty(3)
+    """Write elongation (j,) and its derivative by y (j, r) of every curve at y [eq:units-turned]; ``room`` (5, 3)."""
+    moved, direction, part, turn = room[0], room[1], room[2], room[3:]
     for i in range(spans.size):
         moved[:] = 0.0
         for end in range(2):
@@ -219,7 +224,8 @@ def march(
         Residues of the loads of the constraints, likewise.
     lines : tuple
         Body of every line, parameters, index, nodes, lookup, last tensions, what lines push beyond their tangent at the
-        last three steps (3, r), the newest first.
+        last three steps (3, r), the newest first; share of a change of that push that another pass would bring, and the
+        steps for which it is taken without looking (2,).
     joints : tuple
         Of every curve: its units (j, 2), arms of its ends (j, 2, 3), 1 where turns count to second order (j,),
         direction (j, 3) and length (j,) at rest (zero: it keeps its direction); then points of all curves, where each
@@ -231,7 +237,7 @@ def march(
     """
     inverse, damping, stiffness, basis, tangent, balanced = body
     decay, before, after, residues = memory
-    holder, parameters, index, nodes, lookup, last, pushes = lines
+    holder, parameters, index, nodes, lookup, last, pushes, shrinking = lines
     edges, rough, water = drag
     pairs, arms, bends, axes, spans, xs, fs, ends, dashpots, sides = joints
     r, k, m, j = y.size, decay.size, basis.shape[0], spans.size
@@ -244,7 +250,7 @@ def march(
     along, along_next = np.empty((j, r)), np.empty((j, r))
     answer, compliance = np.empty((r, j)), np.empty((j, j))
     curves = (xs, fs, ends, dashpots, sides)
-    has_lines, at_rest = parameters.shape[0] > 0, 1e-300
+    room, has_lines, at_rest = np.empty((5, 3)), parameters.shape[0] > 0, 1e-300
     for i in range(m):
         at_rest = max(at_rest, _AT_REST * abs(balanced[i]))
     for step in range(steps):
@@ -271,12 +277,12 @@ def march(
                 right[n] -= edges[e, n] * pulled
         for i in range(r):
             ahead[i] = y_p[i] + 0.25 * h * h * a[i]
-        _draw(ahead, basis, pairs, arms, bends, axes, spans, drawn_next, along_next)
-        settled, straight = False, True
+        _draw(ahead, basis, pairs, arms, bends, axes, spans, room, drawn_next, along_next)
+        settled, straight, known, first_change = False, True, False, 0.0
         for i in range(r):
             # continued along a parabola: a pass less than from the last step
             pushed[i] = 3.0 * (pushes[0, i] - pushes[1, i]) + pushes[2, i]
-        for _ in range(_PASSES):
+        for turn in range(_PASSES):
             if j > 0:
                 drawn[:], along[:] = drawn_next, along_next
                 answer = inverse @ np.ascontiguousarray(along.T)
@@ -304,7 +310,7 @@ def march(
             for i in range(r):
                 ahead[i] = y_p[i] + 0.25 * h * h * new[i]
             if j > 0:
-                _draw(ahead, basis, pairs, arms, bends, axes, spans, drawn_next, along_next)
+                _draw(ahead, basis, pairs, arms, bends, axes, spans, room, drawn_next, along_next)
                 straight = True
                 for i in range(j):
                     # the straight line serves unless it misses the length or, where it carries, the direction
@@ -312,7 +318,7 @@ def march(
                     straight = straight and missed <= _STRAIGHT * limit
                     for n in range(r if force[i] != 0.0 else 0):
                         straight = straight and abs(along_next[i, n] - along[i, n]) <= _DIRECTION
-            if not has_lines and straight:
+            if straight and (known or not has_lines):
                 settled = True
                 break
             if not has_lines:
@@ -339,7 +345,15 @@ def march(
                     pushed[n] += basis[i, n] * total
             for i in range(r):
                 apart = max(apart, abs(pushed[i] - former[i]))
-            if apart <= 1e-7 * size and straight:
+            if turn == 0:
+                first_change = apart
+                # what another pass would change is far below what counts: the push is taken as it is
+                known = shrinking[1] > 0.0 and _CAUTION * shrinking[0] * apart <= _SETTLED_PUSH * size
+                shrinking[1] -= 1.0
+            elif turn == 1:
+                share = apart / max(first_change, 1e-300)
+                shrinking[0], shrinking[1] = max(share, _FORGOTTEN * shrinking[0]), _UNSEEN
+            if apart <= _SETTLED_PUSH * size and straight:
                 settled = True
                 break
         if not settled:
