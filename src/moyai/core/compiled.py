@@ -191,6 +191,21 @@ _BEFORE: list[Callable[[Any, Sequence[Any]], None]] = []
 class _Whole(CPUDispatcher):  # type: ignore[misc]
     """A kernel as numba compiles it."""
 
+    #: Whether what is compiled is kept.
+    cached = False
+    _own_cache: Any = None
+
+    @property
+    def _cache(self) -> Any:
+        """Return the cache, made when it is first asked for: most kernels are parts of others and never ask."""
+        if self.cached and not isinstance(self._own_cache, _Cache):
+            self._own_cache = _Cache(self.py_func)
+        return self._own_cache
+
+    @_cache.setter
+    def _cache(self, given: Any) -> None:
+        self._own_cache = given
+
     def compile(self, sig: Any) -> Any:
         """Compile for arguments of given types or take from the cache; see numba's method."""
         for call in _BEFORE:
@@ -256,8 +271,7 @@ def njit(*, pointer: bool = False, **options: Any) -> Callable[[Callable[..., An
         kind = _Kernel if _KNOWN else _Whole
         target = {"nopython": True, "boundscheck": None, **options}
         kernel = kind(py_func=function, targetoptions=target, pipeline_class=_Compiler)
-        if cached:
-            kernel._cache = _Cache(function)
+        kernel.cached = cached
         return kernel
 
     return compiled

@@ -10,6 +10,7 @@ from numpy.typing import ArrayLike
 
 from moyai.core.arrays import Array, ComplexArray
 from moyai.core.errors import InputError
+from moyai.core.options import checks_words
 from moyai.core.validity import IdentityCheck, Notice
 from moyai.floating.arrays import finite, square_matrix
 from moyai.floating.coefficients import Hydrodynamics
@@ -101,6 +102,7 @@ def solve_scaled(matrix: ComplexArray, right: ComplexArray) -> tuple[ComplexArra
     return solution, condition
 
 
+@checks_words
 def solve_motions(
     hydrodynamics: Hydrodynamics | RadiationDiffraction | xr.Dataset,
     inertia: ArrayLike,

@@ -12,6 +12,7 @@ from moyai.core.arrays import Array
 
 SAMPLES_PER_SHORTEST_PERIOD = 8
 ENERGY_KEPT = 0.995  # the shortest ripples are below a pixel
+MOST_NUMBERS = 1 << 18  # of the surface at several places that are held at a time
 
 
 def travelling_surface(
@@ -70,14 +71,18 @@ def travelling_surface(
     place = (wanted - times[0]) * (length / (closed.size * step))
     before = np.floor(place).astype(np.int64)
     share = place - before
+    first, second, scale = before % length, (before + 1) % length, length / closed.size
     out = np.empty((wanted.size, places.size))
-    for column, at in enumerate(places):
+    together = max(1, MOST_NUMBERS // length)
+    for begin in range(0, places.size, together):
+        at = places[begin : begin + together, None]
         # numpy's transform runs with exp(+i omega t); the convention of the package is its conjugate
         along = np.exp(-1j * at * k)
-        there = along + np.conj(reflected * along) if at < 0.0 else np.conj(transmitted) * along
-        carried = np.fft.irfft(spectrum * there, n=length) * (length / closed.size)
+        there = np.where(at < 0.0, along + np.conj(reflected * along), np.conj(transmitted) * along)
+        carried = np.fft.irfft(spectrum * there, n=length, axis=1)
         # the record repeats
-        out[:, column] = (1.0 - share) * carried[before % length] + share * carried[(before + 1) % length] + mean
+        found = (1.0 - share) * carried[:, first] + share * carried[:, second]
+        out[:, begin : begin + together] = scale * found.T + mean
     return out
 
 
