@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
@@ -198,43 +199,30 @@ def solve_motions(
 
     carried = np.zeros((count, headings, size), dtype=np.complex128)
 
-    def solution(extra: Array, carried: ComplexArray) -> tuple[ComplexArray, Array]:
+    def solution(added: Array, carried: ComplexArray) -> tuple[ComplexArray, Array]:
         right = hydrodynamics.excitation_force + carried
-        return solve_scaled(dynamic_stiffness(omega, mass, radiation + extra, restoring), right)
+        return solve_scaled(dynamic_stiffness(omega, mass, radiation + constant + added, restoring), right)
 
-    extra, added, started_near = constant, np.zeros_like(constant), start is not None and iterated
+    def equivalent(displacement: ComplexArray) -> tuple[Array, ComplexArray]:
+        velocity = -1j * np.abs(amplitude)[..., None] * omega[..., None] * displacement
+        return _equivalent(velocity, omega, quadratic, line_damping, water_motion, amplitude)
+
+    added, near = np.zeros_like(constant), start is not None and iterated
     if start is not None and iterated:
         added = start.damping - constant
         carried = carried if start.drag_excitation is None else start.drag_excitation
-    displacement, condition = solution(extra + added, carried)
+    displacement, condition = solution(added, carried)
     iterations, change = 0, 0.0
     if iterated:
         if np.any(condition > SINGULAR):
             # A finite first velocity even at an undamped resonance; the iteration forgets it
             first = LinearDamping(np.zeros((size, size)), np.full(size, 0.1))
-            started = solution(extra + first.at(inertia, hydrodynamics.added_mass, stiffness)[:, None], carried)[0]
-            displacement = np.where(np.isnan(displacement), started, displacement)
-        displacement = np.nan_to_num(displacement)
-        change, goes_on = np.inf, np.ones((count, 1, 1), dtype=bool)
-        while change > tolerance and iterations < maximum_iterations:
-            iterations += 1
-            velocity = -1j * np.abs(amplitude)[..., None] * omega[..., None] * displacement
-            target, driven = _equivalent(velocity, omega, quadratic, line_damping, water_motion, amplitude)
-            # Half steps: near resonance the full step overshoots by as much as it should have gone
-            half = started_near or iterations > 1
-            target, driven = (0.5 * (added + target), 0.5 * (carried + driven)) if half else (target, driven)
-            added = np.where(goes_on[..., None], target, added)
-            carried = np.where(goes_on, driven, carried)
-            extra = constant + added
-            updated, condition = solution(extra, carried)
-            updated = np.where(np.isnan(updated), 0.0, updated)
-            moved = np.where(goes_on, np.abs(updated - displacement), 0.0)
-            reference = np.max(np.abs(updated), axis=1 if apart else (0, 1), keepdims=True)
-            off = np.max(moved / np.where(reference > 0.0, reference, 1.0), axis=(1, 2), keepdims=True)
-            change = float(np.max(off))
-            displacement = updated
-            if apart:
-                goes_on = goes_on & (off > tolerance)
+            more = first.at(inertia, hydrodynamics.added_mass, stiffness)[:, None]
+            displacement = np.where(np.isnan(displacement), solution(added + more, carried)[0], displacement)
+        displacement, added, carried, condition, change, iterations = _linearised(
+            solution, equivalent, (np.nan_to_num(displacement), added, carried, condition), near, apart, tolerance,
+            maximum_iterations,
+        )  # fmt: skip
         displacement[condition > SINGULAR] = np.nan
     notices = _notices(hydrodynamics, condition, change > tolerance, change, iterations)
     return Motions(
@@ -242,12 +230,46 @@ def solve_motions(
         heading=hydrodynamics.heading,
         modes=hydrodynamics.modes,
         displacement=displacement,
-        damping=np.array(extra),
+        damping=constant + added,
         wave_amplitude=amplitude,
         iterations=iterations,
         notices=notices,
         drag_excitation=carried if water_motion is not None else None,
     )
+
+
+def _linearised(
+    solution: Callable[[Array, ComplexArray], tuple[ComplexArray, Array]],
+    equivalent: Callable[[ComplexArray], tuple[Array, ComplexArray]],
+    state: tuple[ComplexArray, Array, ComplexArray, Array],
+    near: bool,
+    apart: bool,
+    tolerance: float,
+    most: int,
+) -> tuple[ComplexArray, Array, ComplexArray, Array, float, int]:
+    """Iterate displacements, added damping and carried forces, (n, h, ...), until they belong to each other.
+
+    ``state`` holds these and the condition of the systems; what comes back, in addition, the last change and the
+    iterations. ``near``: the state is that of a stiffness nearby; ``apart``: each frequency ends by itself.
+    """
+    displacement, added, carried, condition = state
+    change, iterations, goes_on = np.inf, 0, np.ones((len(displacement), 1, 1), dtype=bool)
+    while change > tolerance and iterations < most:
+        iterations += 1
+        target, driven = equivalent(displacement)
+        if near or iterations > 1:
+            # Half steps: near resonance the full step overshoots by as much as it should have gone
+            target, driven = 0.5 * (added + target), 0.5 * (carried + driven)
+        added, carried = np.where(goes_on[..., None], target, added), np.where(goes_on, driven, carried)
+        updated, condition = solution(added, carried)
+        updated = np.where(np.isnan(updated), 0.0, updated)
+        moved = np.where(goes_on, np.abs(updated - displacement), 0.0)
+        reference = np.max(np.abs(updated), axis=1 if apart else (0, 1), keepdims=True)
+        off = np.max(moved / np.where(reference > 0.0, reference, 1.0), axis=(1, 2), keepdims=True)
+        change, displacement = float(np.max(off)), updated
+        if apart:
+            goes_on = goes_on & (off > tolerance)
+    return displacement, added, carried, condition, change, iterations
 
 
 def _equivalent(
