@@ -395,8 +395,25 @@ class IrregularForcing:
         return force, shape * elevation
 
 
-def complex_sum(omega: Array, amplitude: ComplexArray, step: float, count: int) -> ComplexArray:
-    """Return ``sum_i amplitude_i exp(-i omega_i t)`` (count, c) at ``t = step * arange(count)``.
+def real_sum(omega: Array, amplitude: ComplexArray, step: float, count: int, shape: Array) -> Array:
+    """Return the real parts of :func:`sum_by_columns` times a shape in time (count,); shape (count, c).
+
+    Parameters
+    ----------
+    omega, amplitude, step, count
+        As there.
+    shape : ndarray (count,)
+    """
+    out = np.empty((count, amplitude.shape[1]))
+    for number, column in enumerate(sum_by_columns(omega, amplitude, step, count)):
+        np.multiply(shape, column.real, out=out[:, number])
+    return out
+
+
+def sum_by_columns(omega: Array, amplitude: ComplexArray, step: float, count: int) -> Iterator[ComplexArray]:
+    """Yield ``sum_i amplitude_i exp(-i omega_i t)`` (count,) at ``t = step * arange(count)`` column by column.
+
+    A long record of all columns would fill the memory.
 
     Parameters
     ----------
@@ -412,11 +429,6 @@ def complex_sum(omega: Array, amplitude: ComplexArray, step: float, count: int) 
     By one fast Fourier transform a column when all frequencies are whole multiples of 2 pi / (n step) for a whole n;
     else by a compiled sum whose phase factors are advanced by multiplication and renewed every 256 steps.
     """
-    return np.stack(list(sum_by_columns(omega, amplitude, step, count)), axis=1)
-
-
-def sum_by_columns(omega: Array, amplitude: ComplexArray, step: float, count: int) -> Iterator[ComplexArray]:
-    """Yield the columns (count,) of :func:`complex_sum` one by one: a long record of all of them fills the memory."""
     length = _transform_length(omega, step)
     if length == 0:
         yield from _direct_sum(omega, np.ascontiguousarray(amplitude), step, count).T

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from moyai.core.arrays import Array, ComplexArray
-from moyai.floating.forcing import Forcing, cosine_ramp, sum_by_columns
+from moyai.floating.forcing import Forcing, cosine_ramp, real_sum
 
 
 @dataclass(frozen=True)
@@ -42,10 +42,6 @@ class MovingWater:
     def sample(self, step: float, count: int) -> tuple[Array, Array]:
         """Return forces with the motion of the water in further columns (count, m + w), and the elevation."""
         force, elevation = self.forcing.sample(step, count)
-        modes = force.shape[1]
-        found = np.empty((count, modes + self.water.shape[1]))
-        found[:, :modes] = force
         shape = cosine_ramp(step * np.arange(count), self.ramp)
-        for number, column in enumerate(sum_by_columns(self.omega, self.amplitude[:, None] * self.water, step, count)):
-            found[:, modes + number] = shape * column.real
-        return found, elevation
+        moved = real_sum(self.omega, self.amplitude[:, None] * self.water, step, count, shape)
+        return np.concatenate([force, moved], axis=1), elevation

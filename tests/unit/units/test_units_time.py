@@ -445,7 +445,7 @@ def swaying(at, period, amplitude):
         velocity[:, unit] = amplitude * 2.0 * np.pi / period * np.cos(2.0 * np.pi * time / period)
     tension = np.concatenate([system.tensions(position[:, :6]) for system in at.systems], axis=1)
     still = WaveComponents(*(np.array([value]) for value in (1.0, 0.0, 0.0, 0.0, 0.12)), WATER)
-    return Carried(time, position, velocity, tension, still, 6.0 * period, period)
+    return Carried(time, position, velocity, np.eye(at.size), tension, still, 6.0 * period, period)
 
 
 def test_a_line_moved_slowly_has_the_tension_of_the_line_at_rest():

@@ -200,7 +200,7 @@ def _carried(run: SeaRun) -> Carried:
     first = int(np.searchsorted(found.time, run.begin - LEAD * run.period))
     part = slice(max(first, 0), run.kept.stop)
     return Carried(
-        found.time[part], found.position[part], found.velocity[part] @ found.model.at.free.T, found.tension[part],
+        found.time[part], found.reduced[part], found.velocity[part], found.model.at.free, found.tension[part],
         run.waves, run.begin, run.period,
     )  # fmt: skip
 

@@ -14,8 +14,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from moyai.core.arrays import Array
+from moyai.core.at_once import each_at_once
 from moyai.core.errors import ConvergenceError, InputError
-from moyai.core.progress import Progress
+from moyai.core.progress import Progress, silent
 from moyai.flexible.build import NetworkBuilder
 from moyai.flexible.mooring_line import add_mooring_line, bed_under, carried_along, end_tensions, joined
 from moyai.flexible.motion import Motion
@@ -45,10 +46,11 @@ class Carried:
 
     #: Shape (n,).
     time: Array
-    #: Position of all motions; shape (n, m).
-    position: Array
-    #: Velocity of all motions; shape (n, m).
+    #: Motions that the constraints leave, and their velocity; shape (n, r).
+    reduced: Array
     velocity: Array
+    #: All motions of each of them; shape (m, r).
+    free: Array
     #: Shape (n, lines).
     tension: Array
     waves: WaveComponents
@@ -56,6 +58,11 @@ class Carried:
     begin: float
     #: Period of the peak [s].
     period: float
+
+    def motion(self, unit: int, rows: slice) -> tuple[Array, Array]:
+        """Return position and velocity (k, 6) of a unit."""
+        free = self.free[6 * unit : 6 * unit + 6].T
+        return self.reduced[rows] @ free, self.velocity[rows] @ free
 
 
 @dataclass(frozen=True, eq=False)
@@ -126,23 +133,26 @@ def moving_line(at: RowAtLevel, number: int) -> DynamicLine:
         bars *= 2
 
 
-def rerun(at: RowAtLevel, moving: DynamicLine, given: Carried, event: float) -> float:
+def rerun(
+    at: RowAtLevel, moving: DynamicLine, given: Carried, event: float, progress: Progress = silent
+) -> float:  # fmt: skip
     """Return the largest tension [N] of a line in motion around an event.
 
     Raises
     ------
     ConvergenceError
         When the rerun does not come to its end.
+    KeyboardInterrupt
+        When it is stopped.
     """
     step = float(given.time[1] - given.time[0])
     first = max(int(np.searchsorted(given.time, event - LEAD * given.period)), 0)
     last = min(int(np.searchsorted(given.time, event + AROUND * given.period)), len(given.time) - 1)
-    part = slice(6 * moving.unit, 6 * moving.unit + 6)
-    place = fairlead(moving.line, given.position[first : last + 1, part])
+    position, speed = given.motion(moving.unit, slice(first, last + 1))
+    place = fairlead(moving.line, position)
     start = place[0]
-    turned = rotation_matrix(given.position[first : last + 1, part][:, 3:])
+    turned = rotation_matrix(position[:, 3:])
     arm = np.einsum("tij,j->ti", turned, np.asarray(moving.line.fairlead, dtype=float))
-    speed = given.velocity[first : last + 1, part]
     rate = speed[:, :3] + np.cross(speed[:, 3:], arm)
     time = step * np.arange(len(place))
     ramp = RAMP * given.period
@@ -160,7 +170,7 @@ def rerun(at: RowAtLevel, moving: DynamicLine, given: Carried, event: float) -> 
     counted_from = event - begun - AROUND * given.period
     history = simulate(
         moving.network, {moving.line.name: motion}, duration=duration, output_step=step, flow=flow, start=state,
-        counted_from=counted_from,
+        counted_from=counted_from, progress=progress,
     )  # fmt: skip
     if history.status == "interrupted":
         raise KeyboardInterrupt
@@ -218,19 +228,9 @@ def rerun_events(at: RowAtLevel, members: Sequence[Carried], progress: Progress,
     for line in order:
         if float(np.mean(largest[:, line]) / load[line]) * ratio <= best:
             break
-        moving = moving_line(at, int(line))
         events = [events_of(item, int(line)) for item in members]
-        found: list[list[float]] = [[] for _ in members]
-        for turn in range(MOST_EVENTS):
-            for number, item in enumerate(members):
-                top = max(found[number], default=0.0)
-                if turn >= len(events[number]) or (turn > 0 and events[number][turn][1] * ratio <= _SAME * top):
-                    continue
-                progress(f"lines in motion{name}", number + turn * len(members), MOST_EVENTS * len(members))
-                tension = rerun(at, moving, item, events[number][turn][0])
-                found[number].append(tension)
-                ratio = max(ratio, tension / events[number][turn][1])
-                count += 1
+        found, ratio = _largest_in_motion(at, int(line), members, events, ratio, f"lines in motion{name}", progress)
+        count += sum(map(len, found))
         for number in range(len(members)):
             out[number, line] = max(found[number])
             left = events[number][len(found[number])][1] if len(found[number]) < len(events[number]) else 0.0
@@ -238,3 +238,31 @@ def rerun_events(at: RowAtLevel, members: Sequence[Carried], progress: Progress,
         best = max(best, float(np.mean(bound[:, line]) / load[line]))
     progress(f"lines in motion{name}", 1, 1)
     return Reruns(out, bound, count)
+
+
+def _largest_in_motion(
+    at: RowAtLevel, line: int, members: Sequence[Carried], events: list[list[tuple[float, float]]], ratio: float,
+    words: str, progress: Progress,
+) -> tuple[list[list[float]], float]:  # fmt: skip
+    """Rerun the events of a line, one of each realisation at a time; return their tensions and the largest ratio.
+
+    ``events`` are those of each realisation, the highest first, ``ratio`` what reruns of other lines gave.
+    """
+    moving = moving_line(at, line)
+    found: list[list[float]] = [[] for _ in members]
+    going = list(range(len(members)))
+    while going:
+        progress(words, len(members) - len(going), len(members))
+        due = [events[number][len(found[number])] for number in going]
+        pairs = [(members[number], event) for number, (event, _) in zip(going, due, strict=True)]
+        tensions = each_at_once(lambda pair, heard: rerun(at, moving, *pair, heard), pairs, progress)
+        for number, tension, (_, still) in zip(going, tensions, due, strict=True):
+            found[number].append(tension)
+            # the ratio is that of the whole sea, and only grows
+            ratio = max(ratio, tension / still)
+        going = [
+            number
+            for number, (tops, own) in enumerate(zip(events, found, strict=True))
+            if len(own) < min(len(tops), MOST_EVENTS) and tops[len(own)][1] * ratio > _SAME * max(own)
+        ]
+    return found, ratio
