@@ -333,6 +333,20 @@ def test_fixed_steps_converge_with_fourth_order_and_adaptive_ones_to_them():
     packed = pack(cage, lines, water, NU, waves=swell(0.12 * size_of(cage), period, water), ramp=period)
     start = np.concatenate([rest.place, np.zeros(3)])
     fine = march_fixed(packed, start, duration=3 * period, step=period / 12000, every=120)
+    looks = []
+
+    def stop_at_the_third_look(*said):
+        looks.append(said)
+        if len(looks) == 3:
+            raise KeyboardInterrupt
+
+    stopped = march_fixed(
+        packed, start, duration=3 * period, step=period / 12000, every=120, progress=stop_at_the_third_look
+    )
+    assert (fine.status, stopped.status) == ("converged", "interrupted")
+    assert 50 < len(stopped.time) < 100 < len(fine.time) == 301
+    rows = slice(0, len(stopped.time))
+    assert np.array_equal(stopped.state, fine.state[rows]) and np.array_equal(stopped.tension, fine.tension[rows])
     found = [
         march(
             packed,

@@ -15,16 +15,19 @@ from moyai.structures.cage.rigid.water_kernel import PackedCage
 
 @njit(cache=True, error_model="numpy")
 def march_fixed(
-    p: PackedCage, t: float, y: Array, step: float, count: int, every: int, rows: Array, tension: Array, peak: Array
+    p: PackedCage, y: Array, step: float, first: int, count: int, every: int, rows: Array, tension: Array, peak: Array
 ) -> int:
-    """Runge-Kutta of fourth order with a fixed step; writes every ``every``-th state, returns the rows written."""
+    """Runge-Kutta of fourth order with a fixed step, ``count`` of them from step number ``first``, its state included.
+
+    Writes every ``every``-th state and returns the rows written so far, less than 0 where the state is lost.
+    """
     size = y.size
     k = np.empty((4, size))
     stage = np.empty(size)
     force, mass, work = np.empty(3), np.empty((3, 3)), np.empty(6)
     taut = np.full(p.lines.shape[0], -1.0)
-    written = 0
-    for n in range(count + 1):
+    written = -(-first // every)
+    for n in range(first, first + count + 1):
         for i in range(p.lines.shape[0]):
             pull = tension_of(p, i, y, work)
             row = min((n + every // 2) // every, rows.shape[0] - 1)
@@ -34,9 +37,9 @@ def march_fixed(
         if n % every == 0:
             rows[written] = y
             written += 1
-        if n == count:
+        if n == first + count:
             break
-        now = t + n * step
+        now = n * step
         slope(p, now, y, taut, k[0], force, mass, work)
         for i in range(size):
             stage[i] = y[i] + 0.5 * step * k[0, i]

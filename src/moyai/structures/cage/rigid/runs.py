@@ -120,7 +120,10 @@ def run_wave(
         )
     else:
         every = max(1, math.ceil(spacing / settings.fixed_step - 1e-9))
-        found = march_fixed(packed, start, duration=wave.duration, step=spacing / every, every=every)
+        found = march_fixed(
+            packed, start, duration=wave.duration, step=spacing / every, every=every, progress=progress,
+            label=f"time, {wave.name}",
+        )  # fmt: skip
     places = attachments(lines, found.state, cage.centre)
     ends = end_tensions(lines, places[:, :, 1], found.tension)
     peaks = end_tensions(lines, places[:, :, 1], found.tension_peak)

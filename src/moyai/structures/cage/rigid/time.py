@@ -150,7 +150,10 @@ def march(
     return March(time, rows[keep], tension[keep], peaks, steps, refused, events, evaluations, status)
 
 
-def march_fixed(packed: PackedCage, start: Array, *, duration: float, step: float, every: int = 1) -> March:
+def march_fixed(
+    packed: PackedCage, start: Array, *, duration: float, step: float, every: int = 1, progress: Progress = silent,
+    label: str = "march",
+) -> March:  # fmt: skip
     """March with the classical Runge-Kutta method of fourth order at a fixed step.
 
     Parameters
@@ -161,13 +164,26 @@ def march_fixed(packed: PackedCage, start: Array, *, duration: float, step: floa
         [s].
     every : int
         Write every how-manieth state.
+    progress : Progress
+    label : str
+        For the progress.
     """
     count = round(duration / step)
     size, lines = count // every + 1, len(packed.lines)
     rows, tension, peak = np.full((size, 6), np.nan), np.zeros((size, lines)), np.zeros((size, lines))
     state = np.array(start, dtype=float)
-    written = march_kernel.march_fixed(packed, 0.0, state, step, count, every, rows, tension, peak)
+    rows[0], written, status = state, 1, "converged"
+    try:
+        for first in range(0, max(count, 1), _CHUNK):
+            progress(label, first, count)
+            written = march_kernel.march_fixed(
+                packed, state, step, first, min(_CHUNK, count - first), every, rows, tension, peak
+            )
+            if written < 0:
+                status = "not_converged"
+                break
+    except KeyboardInterrupt:
+        status = "interrupted"
     keep = slice(0, abs(written))
     time: Array = np.asarray(np.arange(size)[keep] * step * every, dtype=np.float64)
-    status = "converged" if written > 0 else "not_converged"
     return March(time, rows[keep], tension[keep], peak[keep], count, 0, 0, 4 * count, status)
