@@ -32,6 +32,7 @@ from numba.core.registry import CPUDispatcher
 from numba.core.runtime import rtsys
 
 from moyai.core.shipped_kernels import shipped
+from moyai.core.uncounted import LeaveCountsOut
 
 _PACKAGE = Path(__file__).parents[1]
 _IMPORT = re.compile(r"^from (moyai[\w.]*) import (\([^)]*\)|[^\n]*)", re.MULTILINE)
@@ -168,8 +169,6 @@ class _Compiler(Compiler):  # type: ignore[misc]
         found: list[Any] = super().define_pipelines()
         if _KNOWN:
             from numba.core.typed_passes import IRLegalization
-
-            from moyai.core.uncounted import LeaveCountsOut
 
             for steps in found:
                 steps.add_pass_after(LeaveCountsOut, IRLegalization)

@@ -10,16 +10,22 @@ from __future__ import annotations
 
 from typing import Any
 
+import numpy as np
 from numba.core import ir, types
 from numba.core.compiler_machinery import AnalysisPass, register_pass
 
 #: Expressions that pass on what is there: elements and slices, parts of tuples, steps of loops.
 _PASSED_ON = {
     "build_tuple", "cast", "exhaust_iter", "getitem", "getiter", "iternext", "pair_first", "pair_second", "phi",
-    "static_getitem", "typed_getitem",
+    "typed_getitem",
 }  # fmt: skip
 #: Attributes of arrays that are views.
 _VIEWS = {"T", "real", "imag"}
+#: What a kernel may be called with: who calls it holds the arrays among these, and nothing else of them is counted.
+_PLAIN_ARGUMENT = (
+    types.Array, types.Number, types.Boolean, types.misc.NoneType, types.misc.Omitted, types.FunctionType,
+    types.Dispatcher,
+)  # fmt: skip
 _PLAIN_INDEX = (types.Integer, types.misc.SliceType, types.misc.EllipsisType, types.misc.NoneType)
 
 
@@ -46,22 +52,29 @@ def _makes_arrays(state: Any) -> bool:
     def counted(kind: Any) -> bool:
         return bool(models[kind].contains_nrt_meminfo())
 
-    if counted(state.return_type):
+    if state.func_ir.is_generator or counted(state.return_type) or not all(map(_is_plain_argument, state.args)):
         return True
     for block in state.func_ir.blocks.values():
         for statement in block.body:
-            if isinstance(statement, ir.DynamicRaise | ir.Print | ir.DelItem):
+            if isinstance(statement, ir.DynamicRaise | ir.Print | ir.DelItem | ir.SetAttr):
                 return True
             if isinstance(statement, ir.SetItem) and not _is_plain(state.typemap[statement.index.name]):
+                return True
+            if isinstance(statement, ir.StaticSetItem) and not _is_plain_constant(statement.index):
                 return True
             # what is written into a slice is copied first where the two overlap
             written = isinstance(statement, ir.SetItem | ir.StaticSetItem)
             if written and counted(state.typemap[statement.value.name]):
                 return True
-            if isinstance(statement, ir.Assign) and counted(state.typemap[statement.target.name]):
-                made = statement.value
-                if isinstance(made, ir.Yield) or (isinstance(made, ir.Expr) and not _passes_on(made, state.typemap)):
-                    return True
+            if not (isinstance(statement, ir.Assign) and counted(kind := state.typemap[statement.target.name])):
+                continue
+            made = statement.value
+            # a part of a text is a new one
+            new = isinstance(made, ir.Expr) and (
+                isinstance(kind, types.misc.UnicodeType) or not _passes_on(made, state.typemap)
+            )
+            if new or isinstance(made, ir.Yield):
+                return True
     return False
 
 
@@ -71,6 +84,8 @@ def _passes_on(made: Any, kinds: Any) -> bool:
         return not isinstance(kinds[made.value.name], types.Array) or made.attr in _VIEWS
     if made.op in ("getitem", "typed_getitem"):
         return _is_plain(kinds[made.index.name])
+    if made.op == "static_getitem":
+        return _is_plain_constant(made.index)
     return made.op in _PASSED_ON
 
 
@@ -78,3 +93,16 @@ def _is_plain(index: Any) -> bool:
     """Whether an index gives an element or a view."""
     parts = index.types if isinstance(index, types.containers.BaseTuple) else (index,)
     return all(isinstance(part, _PLAIN_INDEX) for part in parts)
+
+
+def _is_plain_constant(index: Any) -> bool:
+    """Whether a constant index gives an element or a view."""
+    parts = index if isinstance(index, tuple) else (index,)
+    return all(part is None or part is ... or isinstance(part, int | slice | np.integer) for part in parts)
+
+
+def _is_plain_argument(kind: Any) -> bool:
+    """Whether an argument is a number, an array or a function, or a tuple of these."""
+    if isinstance(kind, types.containers.BaseTuple):
+        return all(map(_is_plain_argument, kind.types))
+    return isinstance(kind, _PLAIN_ARGUMENT)

@@ -190,6 +190,7 @@ def solve_with_drift(
     rest = _held(problem, np.zeros(1), [None])
     held = _Held(rest.offsets * count, np.repeat(rest.stiffness, count, axis=0))
     motions, far, force = _answer(problem, hydro, held, amplitude)
+    first = motions.iterations
     iterations, status = np.ones(count), np.where(held.converged, "converged", "not_converged")
     if with_drift:
         held, iterations, status = _loop(
@@ -198,7 +199,7 @@ def solve_with_drift(
         motions, far, force = _answer(problem, hydro, held, amplitude, motions)
     statuses: tuple[Status, ...] = tuple(status.tolist())
     return DriftedMotions(
-        motions=motions,
+        motions=replace(motions, wave_amplitude=amplitude[:, None], iterations=max(first, motions.iterations)),
         far=far,
         drift_force=force if with_drift else np.zeros(count),
         offset=np.array([offset.position for offset in held.offsets]),

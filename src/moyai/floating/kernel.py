@@ -173,8 +173,8 @@ def run_state_space(
             return DIVERGED, step
         q[:], v[:], z[:] = q_new, v_new, z_new
         keep = _is_kept(first + step + 1, every, saved)
-        if keep or steps > 1:
-            # the next step begins with it, also that of the next call
+        if saved[0].shape[0] > 0:
+            # the next step begins with it, also that of the next call; a step that keeps nothing is tried alone
             _draw(q, lines, now, pulls)
         if keep:
             _save((first + step + 1) // every, q, v, saved)
@@ -271,7 +271,7 @@ def run_convolution(
             return DIVERGED, step
         q[:], v[:] = q_new, v_new
         keep = _is_kept(number + 1, every, saved)
-        if keep or steps > 1:
+        if saved[0].shape[0] > 0:
             _draw(q, lines, now, pulls)
         if keep:
             _save((number + 1) // every, q, v, saved)

@@ -210,9 +210,8 @@ def run_lanes(
             real[k], imaginary[k] = rs[k], js[k]
         number = first + step + 1
         keep = number % every == 0 and number // every < positions.shape[1]
-        if keep or steps > 1:
-            # the next step begins with it, also that of the next call
-            _draw(q, lines, starts, going, pull, now, pulls)
+        # the next step begins with it, also that of the next call
+        _draw(q, lines, starts, going, pull, now, pulls)
         for lane in range(LANES):
             if not going[lane]:
                 continue

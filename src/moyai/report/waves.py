@@ -73,7 +73,7 @@ def travelling_surface(
     share = place - before
     first, second, scale = before % length, (before + 1) % length, length / closed.size
     out = np.empty((wanted.size, places.size))
-    together = max(1, MOST_NUMBERS // length)
+    together = max(1, MOST_NUMBERS // max(length, wanted.size))
     for begin in range(0, places.size, together):
         at = places[begin : begin + together, None]
         # numpy's transform runs with exp(+i omega t); the convention of the package is its conjugate

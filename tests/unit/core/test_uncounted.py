@@ -1,11 +1,13 @@
 """Kernels that make no array are compiled without counts of who holds one, all others with them."""
 
 import sys
+from pathlib import Path
 
 import numpy as np
 import pytest
+from numba.typed import List
 
-from moyai.core import compiled
+from moyai.core import compiled, uncounted
 from moyai.core.compiled import njit
 
 pytestmark = pytest.mark.skipif(not compiled._KNOWN, reason="another version of numba compiles as it does by itself")
@@ -53,6 +55,37 @@ def added_up(table, out):
     return out[0]
 
 
+ROWS = np.array([0, 2])
+
+
+@njit(error_model="numpy")
+def rows_of_a_constant(table):
+    return table[ROWS].sum()
+
+
+@njit(error_model="numpy")
+def doubled(table):
+    for value in table:
+        yield 2.0 * value
+
+
+@njit(error_model="numpy")
+def size_of(text, table):
+    return len(text) + table.size
+
+
+@njit(error_model="numpy")
+def drawn(generator, table):
+    table[0] = generator.random()
+    return table[0]
+
+
+@njit(error_model="numpy")
+def longer(items):
+    items.append(2.0)
+    return len(items)
+
+
 def _is_counted(kernel) -> bool:
     (signature,) = kernel.overloads
     return "NRT_incref" in kernel.inspect_llvm(signature) or "NRT_MemInfo" in kernel.inspect_llvm(signature)
@@ -75,6 +108,29 @@ def test_what_makes_or_returns_one_is() -> None:
     assert added_up(table, out) == 14.0
     for kernel in (own_array, handed_back, chosen, copied, added_up):
         assert _is_counted(kernel), kernel.py_func.__name__
+
+
+def test_texts_generators_and_lists_are_counted() -> None:
+    table = np.arange(12.0).reshape(3, 4)
+    assert rows_of_a_constant(table) == 44.0
+    values = doubled(table[0].copy())
+    for _ in range(50):
+        np.full(4, -7.0)
+    assert list(values) == [0.0, 2.0, 4.0, 6.0]
+    text, generator = "".join(["ab", "c"]), np.random.default_rng(1)
+    held = sys.getrefcount(text), sys.getrefcount(generator.bit_generator)
+    for _ in range(100):
+        size_of(text, table)
+        drawn(generator, table[0])
+    assert (sys.getrefcount(text), sys.getrefcount(generator.bit_generator)) == held
+    assert longer(List([1.0])) == 2
+    for kernel in (rows_of_a_constant, size_of, drawn, longer):
+        assert _is_counted(kernel), kernel.py_func.__name__
+
+
+def test_what_chooses_them_belongs_to_the_key() -> None:
+    source = compiled._source.__wrapped__
+    assert Path(uncounted.__file__) in source(Path(compiled.__file__))[1]
 
 
 def test_an_array_that_is_handed_back_outlives_the_kernel() -> None:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from dataclasses import replace
 
 import numpy as np
 import pytest
@@ -123,6 +124,14 @@ def test_energy_of_a_random_coupled_section(
     total = restoring + mooring.matrix
     expected = np.linalg.solve(total, np.stack([force, 0 * force, 0 * force]))
     assert np.allclose(found.offset, expected.T, rtol=1e-6, atol=1e-12)
+    # every wave as if it came alone
+    for number, frequency in enumerate(hydro.omega):
+        alone = solve_with_drift(replace(problem, hydrodynamics=hydro.at(np.array([frequency]))), 0.4)
+        assert np.allclose(alone.motions.displacement[0], found.motions.displacement[number], rtol=1e-8, atol=1e-12)
+        assert alone.drift_force[0] == pytest.approx(found.drift_force[number], rel=1e-8)
+        assert alone.iterations[0] == found.iterations[number]
+    linear = solve_with_drift(replace(problem, quadratic=None), 0.4)
+    assert (linear.motions.wave_amplitude == 0.4).all() and linear.motions.wave_amplitude.shape == (len(hydro.omega), 1)
 
 
 def test_sea_as_forcing_has_the_surface_of_the_sea(

@@ -2,15 +2,18 @@
 
 from __future__ import annotations
 
+import itertools
+from dataclasses import replace
 from typing import Any
 
 import numpy as np
 import pytest
 
+from moyai.floating import time
 from moyai.floating.damping import QuadraticDamping
 from moyai.floating.forcing import IrregularForcing
 from moyai.floating.lines import PlanarMooring
-from moyai.floating.memory import StateSpaceMemory
+from moyai.floating.memory import ConvolutionMemory, StateSpaceMemory
 from moyai.floating.time import CumminsModel, Simulation, simulate
 from moyai.floating.together import simulate_together
 from moyai.mooring.lines import Line, LineType, Segment, SpringLine
@@ -95,3 +98,24 @@ def test_an_interrupt_keeps_what_was_computed_of_all() -> None:
         assert one.status == "interrupted" and 5.0 < one.time[-1] < 4000.0
         whole = simulate(body, forcing, duration=4000.0, time_step=0.05)
         assert np.array_equal(one.position, whole.position[: len(one.time)])
+
+
+@pytest.mark.parametrize("convolution", [False, True])
+def test_a_run_does_not_depend_on_how_it_is_cut(monkeypatch: pytest.MonkeyPatch, convolution: bool) -> None:
+    """Calls of one, two and seven steps, between rows that are kept, against calls of many."""
+    body = model(3, lines=True)
+    if convolution:
+        times = np.linspace(0.0, 10.0, 101)
+        kernel = 2e4 * np.exp(-times)[:, None, None] * np.eye(3)
+        body = replace(body, memory=ConvolutionMemory(times, kernel, np.zeros((3, 3))))
+    given = {"duration": 60.0, "time_step": 0.1, "save_interval": 0.4}
+    whole = simulate(body, sea(1), **given)
+
+    def cut(advance, steps, step, progress):
+        done, sizes = 0, itertools.cycle([1, 3, 1, 1, 2, 7])
+        while done < steps:
+            done += advance(done, min(next(sizes), steps - done))[1]
+        return done, "converged", ""
+
+    monkeypatch.setattr(time, "_drive", cut)
+    assert_same(whole, simulate(body, sea(1), **given))

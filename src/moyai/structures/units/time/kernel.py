@@ -24,9 +24,11 @@ _SETTLED = 1e-8
 _AT_REST = 1e-4
 #: Change of what lines push, over the largest force of lines, at which a step has settled. A pass brings a share of the
 #: change of the pass before; a step ends one pass sooner where that share, as found in one of the last steps, times a
-#: factor of caution, leads below it.
+#: factor of caution, leads below it, and where the push was foreseen about as well as then (that of a line that comes
+#: taut is not).
 _SETTLED_PUSH = 1e-7
 _CAUTION, _UNSEEN, _FORGOTTEN = 100.0, 8.0, 0.9
+_LEAST_SHARE, _FORESEEN = 1e-3, 4.0
 #: Share of the largest motion that an elongation may miss, change of its derivative within a pass of the step
 _STRAIGHT, _DIRECTION = 1e-10, 1e-5
 
@@ -224,8 +226,8 @@ def march(
         Residues of the loads of the constraints, likewise.
     lines : tuple
         Body of every line, parameters, index, nodes, lookup, last tensions, what lines push beyond their tangent at the
-        last three steps (3, r), the newest first; share of a change of that push that another pass would bring, and the
-        steps for which it is taken without looking (2,).
+        last three steps (3, r), the newest first; share of a change of that push that another pass would bring, the
+        steps for which it is taken without looking, and the change then (3,).
     joints : tuple
         Of every curve: its units (j, 2), arms of its ends (j, 2, 3), 1 where turns count to second order (j,),
         direction (j, 3) and length (j,) at rest (zero: it keeps its direction); then points of all curves, where each
@@ -348,11 +350,13 @@ def march(
             if turn == 0:
                 first_change = apart
                 # what another pass would change is far below what counts: the push is taken as it is
-                known = shrinking[1] > 0.0 and _CAUTION * shrinking[0] * apart <= _SETTLED_PUSH * size
+                known = shrinking[1] > 0.0 and apart <= _FORESEEN * shrinking[2]
+                known = known and max(_CAUTION * shrinking[0], _LEAST_SHARE) * apart <= _SETTLED_PUSH * size
                 shrinking[1] -= 1.0
             elif turn == 1:
                 share = apart / max(first_change, 1e-300)
                 shrinking[0], shrinking[1] = max(share, _FORGOTTEN * shrinking[0]), _UNSEEN
+                shrinking[2] = first_change
             if apart <= _SETTLED_PUSH * size and straight:
                 settled = True
                 break

@@ -169,7 +169,7 @@ class RowInTime:
         stiffness = free.T @ self.stiffness @ free + tangent
         inverse = np.linalg.inv(mass + 0.5 * step * damping + 0.25 * step**2 * stiffness)
         lines, joints = self._lines(), self._joints()
-        so_far = np.zeros(len(lines[0])), np.zeros((3, free.shape[1])), np.zeros(2)
+        so_far = np.zeros(len(lines[0])), np.zeros((3, free.shape[1])), np.zeros(3)
         count, size, link_count = len(load), free.shape[1], len(at.links)
         saved = (
             np.zeros((count, size)), np.zeros((count, size)), np.zeros((count, size)), np.zeros((count, len(g))),
