@@ -193,10 +193,10 @@ def solve_with_drift(
     first = motions.iterations
     iterations, status = np.ones(count), np.where(held.converged, "converged", "not_converged")
     if with_drift:
-        held, iterations, status = _loop(
+        held, near, iterations, status = _loop(
             problem, hydro, amplitude, held, motions, force, tolerance, maximum_iterations, progress
         )
-        motions, far, force = _answer(problem, hydro, held, amplitude, motions)
+        motions, far, force = _answer(problem, hydro, held, amplitude, near)
     statuses: tuple[Status, ...] = tuple(status.tolist())
     return DriftedMotions(
         motions=replace(motions, wave_amplitude=amplitude[:, None], iterations=max(first, motions.iterations)),
@@ -220,11 +220,11 @@ def _loop(
     tolerance: float,
     maximum_iterations: int,
     progress: Progress,
-) -> tuple[_Held, Array, NDArray[np.str_]]:
+) -> tuple[_Held, Motions, Array, NDArray[np.str_]]:
     """Find for each wave the drift that causes itself [eq:floating-drift-loop]; return where it holds the body.
 
     ``held``, ``motions`` and ``caused``, the drifts, are those of no drift. All waves go on together, each until it
-    has settled. Rounds and the status of each come with the answer.
+    has settled. The motions there, rounds and the status of each come with the answer.
     """
     count = len(amplitude)
     offsets, stiffness = list(held.offsets), held.stiffness.copy()
@@ -252,7 +252,7 @@ def _loop(
         )  # fmt: skip
         going = going[on]
     progress("drift loop", count, count)
-    return _Held(tuple(offsets), stiffness), used, status
+    return _Held(tuple(offsets), stiffness), motions, used, status
 
 
 def _next_force(force: Array, gap: Array, previous_force: Array, previous_gap: Array) -> Array:
