@@ -1,8 +1,4 @@
-"""Compiled planar force of all lines on a body for time integration: tables inside their windows, exact solver outside.
-
-The compiled callers of a kernel are cached by their own file only: after a change of kernels.py or segments.py, touch
-this file as well, or the cache keeps the old inlined code.
-"""
+"""Compiled planar force of all lines on a body for time integration: tables in their windows, exact solver outside."""
 
 from __future__ import annotations
 
