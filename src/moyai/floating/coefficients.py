@@ -10,10 +10,10 @@ from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
-import scipy
 from numpy.typing import ArrayLike
 
 from moyai.core.arrays import Array, ComplexArray
+from moyai.core.curves import Spline
 from moyai.core.errors import InputError
 from moyai.core.options import check_word, checks_words
 from moyai.floating.arrays import finite, increasing
@@ -180,7 +180,7 @@ class Hydrodynamics:
             return replace(self, omega=wanted, **held)
         # One spline of all columns: setting it up costs more than the columns do
         columns = [_real_columns(values) for values in known.values()]
-        found = scipy.interpolate.CubicSpline(self.omega, np.concatenate(columns, axis=1))(inside)
+        found = Spline(self.omega, np.concatenate(columns, axis=1))(inside)
         parts = np.split(found, np.cumsum([column.shape[1] for column in columns])[:-1], axis=1)
         along: dict[str, Any] = {
             name: _as_columns_of(part, values) for part, (name, values) in zip(parts, known.items())
@@ -206,7 +206,7 @@ class Hydrodynamics:
         if len(self.omega) == 1:
             spread = np.repeat(self.excitation_force, len(frequency), axis=0)
         else:
-            spread = scipy.interpolate.CubicSpline(self.omega, self.excitation_force, axis=0)(frequency)
+            spread = Spline(self.omega, self.excitation_force)(frequency)
         if heading is None:
             if len(self.heading) != 1:
                 raise InputError("several headings are computed and none is named", parameter="heading")

@@ -7,10 +7,10 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 import numpy as np
-import scipy
 from numpy.typing import ArrayLike, NDArray
 
 from moyai.core.arrays import Array
+from moyai.core.curves import Spline, crossing
 from moyai.core.errors import InputError
 from moyai.core.remembered import Remembered
 from moyai.core.store import key_of
@@ -77,7 +77,7 @@ def natural_modes(
     -----
     A mode is a frequency at which the symmetric matrix K - w^2 (M + A(w)) is singular. Its sorted eigenvalues (modes
     scaled by their inertia) start as those of K and fall, one through zero at each natural frequency; the first
-    crossing of each is bracketed on the grid of the coefficients and found by Brent's method. So modes do not change
+    crossing of each is bracketed on the grid of the coefficients and found by interpolation. So modes do not change
     places, and the added mass may even be negative, as it is near a gap resonance.
 
     Examples
@@ -113,7 +113,7 @@ def _natural_modes(hydrodynamics: Hydrodynamics, inertia: Array, stiffness: Arra
     def spectrum(omega: float) -> tuple[Array, Array]:
         matrix = added(omega)
         dynamic = restoring - omega**2 * (inertia + 0.5 * (matrix + matrix.T))
-        values, columns = scipy.linalg.eigh(dynamic * scale[:, None] * scale[None, :])
+        values, columns = np.linalg.eigh(dynamic * scale[:, None] * scale[None, :])
         return values, columns
 
     omega, vectors, outside = np.zeros(size), np.zeros((size, size)), []
@@ -156,7 +156,7 @@ def _held(hydrodynamics: Hydrodynamics, values: Array, above: Array | None) -> C
     """Return ``values`` as a function of frequency, ends held; ``above`` approached like 1/omega^2 beyond the last."""
     low, high = float(hydrodynamics.omega[0]), float(hydrodynamics.omega[-1])
     several = len(hydrodynamics.omega) > 1
-    spline = scipy.interpolate.CubicSpline(hydrodynamics.omega, values, axis=0) if several else None
+    spline = Spline(hydrodynamics.omega, values) if several else None
 
     def function(omega: float | Array) -> Array:
         inside = np.minimum(np.maximum(omega, low), high)
@@ -209,14 +209,18 @@ def _mode_frequency(
     below, above = float(grid[crossed[0] - 1]) if crossed[0] else 0.0, float(grid[crossed[0]])
     if eigenvalue(below) * eigenvalue(above) >= 0.0:
         return above if abs(eigenvalue(above)) < abs(eigenvalue(below)) else below  # one of them is it, to rounding
-    return float(scipy.optimize.brentq(eigenvalue, below, above, xtol=1e-13 * top, rtol=1e-13))
+    return crossing(eigenvalue, below, above, tolerance=1e-13 * top)
 
 
 def _lead(vectors: Array, inertia: Array) -> tuple[NDArray[np.intp], Array]:
     """Give every mode the motion that carries most of its kinetic energy, each motion once; scale it to 1 there."""
     share = vectors**2 * np.diag(inertia)
     share = share / np.sum(share, axis=1, keepdims=True)
-    row, column = scipy.optimize.linear_sum_assignment(-share)
-    order = row[np.argsort(column)]
+    column = np.argmax(share, axis=1)
+    if len(set(column.tolist())) < len(column):
+        from scipy.optimize import linear_sum_assignment  # slow to load, and seldom asked for
+
+        column = linear_sum_assignment(-share)[1]
+    order = np.argsort(column)
     shapes = vectors[order]
     return order, shapes / np.diagonal(shapes)[:, None]

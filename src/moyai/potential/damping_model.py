@@ -7,10 +7,10 @@ from dataclasses import dataclass
 from typing import Literal
 
 import numpy as np
-import scipy
 from numpy.typing import ArrayLike
 
 from moyai.core.arrays import Array, ComplexArray
+from moyai.core.curves import Spline, in_pieces
 from moyai.core.errors import InputError
 from moyai.core.options import checks_words
 from moyai.potential.damping_tail import Tail, TailTheory, choose_tail
@@ -53,14 +53,13 @@ class DampingModel:
         """
         x = np.abs(np.atleast_1d(np.asarray(omega, dtype=float)))
         inside = np.minimum(x, self.knots[-1])
-        # scipy.interpolate.PPoly wants the highest power first
-        out = scipy.interpolate.PPoly(self.coefficients[::-1], self.knots)(inside)
+        out: Array = in_pieces(self.knots, self.coefficients, inside)
         beyond = x > self.knots[-1]
         if beyond.any():
             for i, row in enumerate(self.tails):
                 for j, tail in enumerate(row):
                     out[beyond, i, j] = tail.damping(x[beyond])
-        return np.asarray(out)
+        return out
 
     def velocity_kernel(self, time: ArrayLike) -> Array:
         """Return K(t) = (2/pi) integral of B cos(omega t), (t, m, m), [eq:memory-velocity-kernel].
@@ -95,9 +94,11 @@ class DampingModel:
         InputError
             For times that are negative or not finite.
         """
+        from scipy.special import sici
+
         t = _times(time)
         out = fourier_integral(self.knots, self.over_frequency, t).imag
-        out += scipy.special.sici(self.knots[-1] * t)[0][:, None, None] * self.steady
+        out += sici(self.knots[-1] * t)[0][:, None, None] * self.steady
         for i, row in enumerate(self.tails):
             for j, tail in enumerate(row):
                 out[:, i, j] += tail.sine_over_frequency(t)
@@ -236,7 +237,7 @@ def fit_damping(
     return DampingModel(knots, _pieces(spline, knots), _pieces(quotient, knots), steady, tails)
 
 
-def _spline(w: Array, values: Array, at_zero: Array | None, *, even: bool, sign: float) -> scipy.interpolate.BSpline:
+def _spline(w: Array, values: Array, at_zero: Array | None, *, even: bool, sign: float) -> Spline:
     """Interpolate; ``even`` mirrors the data with a sign about zero frequency, so that the start is exact."""
     if even:
         middle = [] if at_zero is None else [at_zero[None]]
@@ -246,12 +247,12 @@ def _spline(w: Array, values: Array, at_zero: Array | None, *, even: bool, sign:
         x, y = np.concatenate([[0.0], w]), np.concatenate([at_zero[None], values])
     else:
         x, y = w, values
-    return scipy.interpolate.make_interp_spline(x, y, k=5)
+    return Spline(x, y, 5)
 
 
-def _pieces(spline: scipy.interpolate.BSpline, knots: Array) -> Array:
+def _pieces(spline: Spline, knots: Array) -> Array:
     """Local powers of a spline on every interval; its own knots lie among them or where it is smooth."""
-    out = np.empty((6, len(knots) - 1, *spline.c.shape[1:]))
+    out = np.empty((6, len(knots) - 1, *spline.powers.shape[2:]))
     factor = 1.0
     # From inside each interval, since not-a-knot ends let the first intervals share one polynomial
     for power in range(6):
