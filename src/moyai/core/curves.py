@@ -114,12 +114,19 @@ def crossing(function: Callable[[float], float], low: float, high: float, *, tol
     tolerance : float
         Of the place, absolute.
 
+    Raises
+    ------
+    ValueError
+        Where the signs are the same.
+
     Notes
     -----
     Chandrupatla (1997): inverse quadratic interpolation where it can be trusted, halving elsewhere.
     """
     a, b = high, low
     at_a, at_b = function(a), function(b)
+    if at_a * at_b > 0.0:
+        raise ValueError(f"{at_b:g} at {low:g} and {at_a:g} at {high:g} have the same sign")
     share = 0.5
     while True:
         new = a + share * (b - a)

@@ -11,7 +11,6 @@ from typing import Any, Literal
 
 import numpy as np
 from numpy.typing import ArrayLike
-from scipy.special import gamma
 
 from moyai.core.errors import InputError
 from moyai.core.options import checks_words
@@ -188,7 +187,7 @@ def dirlik_damage(moments: ArrayLike, duration: float, curve: EnduranceCurve) ->
     q = 1.25 * (irregularity - d3 - d2 * r) / d1
     m = curve.exponent
     power = (2.0 * math.sqrt(m0)) ** m * (
-        d1 * q**m * gamma(1.0 + m) + math.sqrt(2.0) ** m * float(gamma(1.0 + m / 2.0)) * (d2 * abs(r) ** m + d3)
+        d1 * q**m * math.gamma(1.0 + m) + math.sqrt(2.0) ** m * math.gamma(1.0 + m / 2.0) * (d2 * abs(r) ** m + d3)
     )
     return float(peaks * duration * power / curve.capacity)
 

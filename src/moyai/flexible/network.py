@@ -149,11 +149,17 @@ def name_of_node(network: Network, node: int) -> str:
 
 def parts(count: int, start: np.ndarray, end: np.ndarray) -> np.ndarray:
     """Return the number of the connected part of every node."""
-    from scipy.sparse import coo_array
-    from scipy.sparse.csgraph import connected_components
-
-    graph = coo_array((np.ones(start.size), (start, end)), shape=(count, count))
-    return np.asarray(connected_components(graph, directed=False)[1])
+    lowest = np.arange(count)
+    while True:
+        at_start, at_end = lowest[start], lowest[end]
+        lower = np.minimum(at_start, at_end)
+        joined = lowest.copy()
+        np.minimum.at(joined, at_start, lower)
+        np.minimum.at(joined, at_end, lower)
+        joined = joined[joined]
+        if np.array_equal(joined, lowest):
+            return np.unique(lowest, return_inverse=True)[1]
+        lowest = joined
 
 
 def _check_network(network: Network) -> None:

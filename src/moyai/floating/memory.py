@@ -7,7 +7,6 @@ from typing import Protocol
 
 import numpy as np
 from numpy.typing import ArrayLike
-from scipy.interpolate import CubicSpline
 
 from moyai.core.arrays import Array, ComplexArray
 from moyai.core.errors import ConvergenceError, InputError
@@ -230,12 +229,16 @@ class ConvolutionMemory:
         time, kernel = self.time[keep], self.velocity_kernel[keep]
         dashpot = self.dashpot
         if steady_dashpot is not None:
+            from scipy.interpolate import CubicSpline
+
             integral = CubicSpline(time, kernel, axis=0).integrate(time[0], time[-1])
             dashpot = np.asarray(steady_dashpot, dtype=float) - integral
         return ConvolutionMemory(time, kernel, dashpot)
 
     def on_steps(self, half_step: float) -> Array:
         """Return K at ``half_step * arange(2 l + 1)`` up to the end of the memory."""
+        from scipy.interpolate import CubicSpline
+
         count = 2 * int(self.time[-1] / (2.0 * half_step)) + 1
         return np.ascontiguousarray(CubicSpline(self.time, self.velocity_kernel, axis=0)(half_step * np.arange(count)))
 

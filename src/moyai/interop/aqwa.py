@@ -13,7 +13,6 @@ from typing import Literal
 
 import numpy as np
 import xarray as xr
-from scipy.linalg import block_diag
 
 from moyai.core.arrays import Array
 from moyai.core.errors import InputError
@@ -125,6 +124,8 @@ def read_aqwa(
     stiffness = None
     if "HYDSTIFFNESS" in sections:
         rows = np.array([row[-6:] for row in sections["HYDSTIFFNESS"]]).reshape(structures, 6, 6)
+        from scipy.linalg import block_diag
+
         stiffness = block_diag(*rows)
     dataset = assemble(
         program="AQWA",

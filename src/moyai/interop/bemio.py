@@ -15,7 +15,6 @@ from typing import Any
 import numpy as np
 import xarray as xr
 from numpy.typing import NDArray
-from scipy.linalg import block_diag
 
 from moyai.core.arrays import ComplexArray
 from moyai.core.errors import InputError
@@ -90,6 +89,8 @@ def read_bemio(
         added_mass = np.concatenate([_rows(group, "added_mass/all", count, file) for group in groups])
         damping = np.concatenate([_rows(group, "radiation_damping/all", count, file) for group in groups])
         infinite = np.concatenate([_rows(group, "added_mass/inf_freq", count, file) for group in groups])
+        from scipy.linalg import block_diag
+
         stiffness = block_diag(*(np.asarray(group["linear_restoring_stiffness"][()], dtype=float) for group in groups))
         directions = np.radians(np.ravel(parameters["wave_dir"][()]).astype(float))
         forces = {"excitation_force": np.concatenate([_force(group["excitation"]) for group in groups], axis=2)}

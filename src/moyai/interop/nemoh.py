@@ -18,7 +18,6 @@ from pathlib import Path
 
 import numpy as np
 import xarray as xr
-from scipy.linalg import block_diag
 
 from moyai.core.arrays import Array, ComplexArray
 from moyai.core.errors import InputError
@@ -277,5 +276,7 @@ def _read_stiffness(root: Path, control: _Control) -> Array | None:
         ]
         if all(table.shape == (6, 6) for table in tables):
             chosen = [dof_names(control.bodies).index(name) for name in control.dofs]
+            from scipy.linalg import block_diag
+
             return np.asarray(block_diag(*tables)[np.ix_(chosen, chosen)])
     return None

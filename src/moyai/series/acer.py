@@ -10,8 +10,6 @@ from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import ArrayLike
-from scipy.optimize import least_squares
-from scipy.special import ndtri
 
 from moyai.core.arrays import Array
 from moyai.core.errors import InputError
@@ -237,6 +235,8 @@ def _fit(rates: ExceedanceRates, rate: Array, start: float) -> AcerFit:
     def residual(free: Array) -> Array:
         return linear(level[0] - spread * math.exp(free[0]), math.exp(free[1]))[2]
 
+    from scipy.optimize import least_squares
+
     best = min(
         (
             least_squares(residual, [first, second], bounds=([-12.0, -0.7], [2.5, 1.6]))
@@ -293,6 +293,8 @@ def acer_interval(tail: AcerFit, count: float, probability: float, *, confidence
     >>> bool(abs(found.value / exact - 1.0) < 0.1)
     True
     """
+    from scipy.special import ndtri
+
     value = tail.maximum_level(count, probability)
     reach = float(ndtri(0.5 + confidence / 2.0)) * tail.rates.deviation
     bounds = []

@@ -11,9 +11,9 @@ from typing import Literal
 
 import numpy as np
 from numpy.typing import ArrayLike
-from scipy.optimize import brentq, minimize_scalar
 
 from moyai.core.arrays import Array
+from moyai.core.curves import crossing
 from moyai.core.errors import ConvergenceError, InputError
 from moyai.core.options import checks_words
 from moyai.core.validity import Notice
@@ -258,7 +258,7 @@ def _gumbel(data: Array) -> ExtremeFit:
         weight = np.exp(-(x - x.min()) / scale)
         return float(scale - np.mean(x) + np.sum(x * weight) / np.sum(weight))
 
-    scale = float(brentq(residual, 1e-3, 20.0, xtol=1e-14, rtol=1e-13))
+    scale = crossing(residual, 1e-3, 20.0, tolerance=1e-14)
     location = x.min() - scale * math.log(np.mean(np.exp(-(x - x.min()) / scale)))
     y = (x - location) / scale
     likelihood = float(-x.size * math.log(scale * spread) - np.sum(y) - np.sum(np.exp(-y)))
@@ -296,6 +296,8 @@ def _weibull_tail(data: Array, location: float, threshold: float) -> ExtremeFit:
             parameter="values",
             remedy="fit a larger share of the peaks, or choose another family",
         )
+    from scipy.optimize import minimize_scalar
+
     found = minimize_scalar(
         minus_likelihood, bounds=(grid[best - 1], grid[best + 1]), method="bounded", options={"xatol": 1e-10}
     )

@@ -9,7 +9,6 @@ from __future__ import annotations
 import math
 
 import numpy as np
-from scipy.optimize import minimize_scalar
 
 from moyai.core.arrays import Array
 from moyai.core.errors import ConvergenceError
@@ -92,6 +91,8 @@ def pareto_likelihood(excess: Array) -> tuple[float, float]:
             parameter="values",
             remedy="choose another threshold, or a Weibull fit",
         )
+    from scipy.optimize import minimize_scalar
+
     lower, upper = grid[max(best - 1, 0)], grid[best + 1]
     found = minimize_scalar(cost, bounds=(lower, upper), method="bounded", options={"xatol": 1e-12})
     theta = float(found.x) if found.fun <= values[best] else float(grid[best])

@@ -11,9 +11,9 @@ from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
-from scipy.optimize import brentq
 
 from moyai.core.arrays import Array
+from moyai.core.curves import crossing
 from moyai.core.errors import ConvergenceError, InputError
 from moyai.series.extremes import ExtremeFit, refit
 from moyai.series.intervals import Interval, reflected_interval
@@ -124,7 +124,7 @@ def _falling_root(excess: object, kinds: Sequence[PeakKind]) -> float:
     high = low + step
     for _ in range(200):
         if excess(high) < 0.0:
-            return float(brentq(excess, low, high, xtol=1e-13 * max(abs(low), abs(high)), rtol=1e-13))
+            return crossing(excess, low, high, tolerance=1e-13 * max(abs(low), abs(high)))
         low, high = high, high + 2.0 * (high - low)
     raise ConvergenceError("the level of the maximum lies beyond any bound", parameter="peaks")
 

@@ -13,7 +13,6 @@ from dataclasses import dataclass, replace
 from functools import cached_property
 
 import numpy as np
-from scipy.linalg import lu_factor, lu_solve
 
 from moyai.core.arrays import Array, ComplexArray, IntArray
 from moyai.core.errors import InputError
@@ -345,7 +344,7 @@ def _solved(
             matrix[np.ix_(~gap, gap)] = -single[np.ix_(~gap, gap)]
             matrix[np.ix_(gap, gap)] = np.eye(int(gap.sum())) + rate * single[np.ix_(gap, gap)]
             right[gap] = -rate * (right[gap] + wave[number][gap])
-        found[number] = lu_solve(lu_factor(matrix, check_finite=False), right, check_finite=False)
+        found[number] = np.linalg.solve(matrix, right)
     return group.joined(found)
 
 

@@ -11,9 +11,9 @@ from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING
 
 import numpy as np
-from scipy.interpolate import CubicSpline
 
 from moyai.core.arrays import Array, ComplexArray
+from moyai.core.curves import Spline
 from moyai.core.errors import InputError
 from moyai.core.validity import IdentityCheck, Notice
 from moyai.interop.bodies import about_points, bodies_of, in_order, moved_axes, with_drift_of_all
@@ -202,6 +202,8 @@ def _of_headings(dataset: xr.Dataset, at: RowAtLevel, headings: Array) -> tuple[
     between = [float(heading) for heading, column in zip(headings, apart) if column.min() > _SAME_HEADING]
     force, moved = excitation[:, near], None if drift is None else drift[:, near]
     if between:
+        from scipy.interpolate import CubicSpline
+
         around = np.concatenate([there[-3:] - 2.0 * math.pi, there, there[:3] + 2.0 * math.pi])
         _check_headings(around, there, between)
         index = np.concatenate([np.arange(len(there))[-3:], np.arange(len(there)), np.arange(len(there))[:3]])
@@ -298,7 +300,7 @@ def at_frequencies(whole: RowHydrodynamics, omega: Array) -> RowHydrodynamics:
 
 
 def _smooth(own: Array, values: Array, omega: Array) -> Array:
-    return np.array(np.tile(values, (len(omega), 1, 1)) if len(own) == 1 else CubicSpline(own, values)(omega))
+    return np.array(np.tile(values, (len(omega), 1, 1)) if len(own) == 1 else Spline(own, values)(omega))
 
 
 def _solutions_apart(whole: RowHydrodynamics, omega: Array) -> list[Notice]:

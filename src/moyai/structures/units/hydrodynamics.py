@@ -8,9 +8,9 @@ from functools import cached_property
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
-from scipy.interpolate import CubicSpline
 
 from moyai.core.arrays import Array, ComplexArray, IntArray
+from moyai.core.curves import Spline
 from moyai.core.errors import InputError
 from moyai.core.progress import Progress, silent
 from moyai.core.store import DatasetStore, key_of
@@ -141,11 +141,11 @@ class RowHydrodynamics:
         return np.asarray(answers.real), np.asarray(answers.imag * omega[:, None, None]), steady(omega) * self.phase(k)
 
     @cached_property
-    def _splines(self) -> tuple[CubicSpline, CubicSpline]:
+    def _splines(self) -> tuple[Spline, Spline]:
         """Splines of excitation and of added mass with damping, without what turns fast."""
         own = self.omega
         answer = (self.added_mass + 1j * self.damping / own[:, None, None]) / self._travel(self.wave_number)
-        return CubicSpline(own, self.excitation / self.phase(self.wave_number)), CubicSpline(own, answer)
+        return Spline(own, self.excitation / self.phase(self.wave_number)), Spline(own, answer)
 
     def among(self, columns: IntArray) -> RowHydrodynamics:
         """Return the coefficients of some of the headings; the seas of one set of headings share them."""

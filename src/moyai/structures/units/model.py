@@ -14,7 +14,6 @@ from pathlib import Path
 from typing import Any, Literal
 
 import numpy as np
-from scipy.special import ndtr
 
 from moyai.core.arrays import Array
 from moyai.core.headline import Criterion
@@ -97,6 +96,8 @@ class Curve:
             share = angle / math.pi
             ramp = size * (u * share + np.sin(angle) / math.pi)
         else:
+            from scipy.special import ndtr
+
             share = ndtr(u)
             ramp = size * (u * share + np.exp(-0.5 * u**2) / math.sqrt(2.0 * math.pi))
         bends = np.diff(slopes)

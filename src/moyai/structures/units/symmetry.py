@@ -6,7 +6,6 @@ from dataclasses import dataclass
 from itertools import product
 
 import numpy as np
-from scipy.spatial import cKDTree
 
 from moyai.core.arrays import Array, ComplexArray, IntArray
 from moyai.structures.units.mesh import PanelMesh
@@ -50,6 +49,8 @@ class Symmetry:
 
 def symmetry_of(mesh: PanelMesh) -> Symmetry:
     """Return the mirrors x -> -x and y -> -y that map a mesh onto itself, none of its panels onto itself."""
+    from scipy.spatial import cKDTree
+
     centre = mesh.centre
     size = float(np.ptp(centre, axis=0).max())
     tolerance = 1e-7 * size

@@ -7,6 +7,7 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
+from moyai.core.curves import crossing
 from moyai.core.errors import InputError
 from moyai.core.validity import Notice
 from moyai.structures.curtain.impact.cable import Impact
@@ -119,9 +120,7 @@ def _reach(place, low: float, high: float, sag: float) -> float | None:  # type:
     if high <= low or abs(place(high)) < sag:
         return None
     side = math.copysign(1.0, place(high))
-    from scipy.optimize import brentq
-
-    return float(brentq(lambda time: side * place(time) - sag, low, high, xtol=1e-15, rtol=1e-14))
+    return crossing(lambda time: side * place(time) - sag, low, high, tolerance=1e-14 * high)
 
 
 def _phase(time: float, found: float, position: float, speed: float, current: float) -> SlackPhase:

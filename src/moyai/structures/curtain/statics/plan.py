@@ -15,6 +15,7 @@ from typing import Any, Literal
 import numpy as np
 
 from moyai.core.arrays import Array
+from moyai.core.curves import Spline
 from moyai.core.errors import InputError
 from moyai.core.options import checks_words
 from moyai.sea.current import CurrentProfile
@@ -67,22 +68,15 @@ class PlanLoad:
             )
 
     @cached_property
-    def _pieces(self) -> Array:
-        """Coefficients of the cubics between the points, the highest power first, shape (4, n-1)."""
-        from scipy.interpolate import CubicSpline
-
-        return np.asarray(CubicSpline(self.angle, self.ratio).c)
+    def _curve(self) -> Spline:
+        return Spline(self.angle, self.ratio)
 
     def factor(self, slope: Array) -> Array:
         """Return c at the tangent of an angle."""
         if self.ratio.size == 1:
             return np.full(np.shape(slope), self.ratio[0])
         turn = np.clip(np.arctan(slope), self.angle[0], self.angle[-1])
-        row = np.clip(np.searchsorted(self.angle, turn, side="right") - 1, 0, self.angle.size - 2)
-        third, second, first, value = self._pieces[:, row]
-        past = turn - self.angle[row]
-        found: Array = ((third * past + second) * past + first) * past + value
-        return found
+        return self._curve(turn)
 
 
 def cosine_squared_load(line_load: float, flow_angle: float) -> PlanLoad:

@@ -9,7 +9,6 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import numpy as np
-from scipy.optimize import nnls
 
 from moyai.core.arrays import Array, ComplexArray
 from moyai.core.errors import ConvergenceError, InputError
@@ -274,6 +273,8 @@ def _passive_function(rows: Array, triangle: Array) -> Array:
     stack = np.vstack([turned, np.ones(len(rows))])
     unit = np.zeros(len(stack))
     unit[-1] = 1.0
+    from scipy.optimize import nnls
+
     rest = stack @ nnls(stack, unit, maxiter=100 * stack.shape[1])[0] - unit
     return np.asarray(np.linalg.solve(triangle, -rest[:-1] / rest[-1]))
 
