@@ -161,7 +161,7 @@ class _Compiler(Compiler):  # type: ignore[misc]
             # Not before something is compiled: it imports a lot
             from moyai.core.compile_costs import cut_costs
 
-            cut_costs()
+            cut_costs(_part)
         super().__init__(*arguments)
 
     def define_pipelines(self) -> list[Any]:
@@ -252,6 +252,11 @@ class _Kernel(_Whole):
         """Return the key of the part for a signature; see numba's method."""
         arguments, _ = sigutils.normalize_signature(sig)
         return self._parts[tuple(arguments)][1]
+
+
+def _part(**options: Any) -> Callable[[Callable[..., Any]], Any]:
+    """Return a decorator of functions that numba brings for kernels: they are parts of what calls them."""
+    return partial(_Kernel, targetoptions={"nopython": True, "boundscheck": None, **options}, pipeline_class=Compiler)
 
 
 def njit(*, pointer: bool = False, **options: Any) -> Callable[[Callable[..., Any]], Any]:

@@ -6,6 +6,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from numba.core import event
 
 from moyai.core import compiled
 from moyai.core.compiled import kernel_stamp, njit, when_compiling
@@ -69,6 +70,27 @@ def test_kernels_within_a_kernel_are_parts_and_have_a_form_of_their_own_for_pyth
     assert len(_quarter.overloads) == 1
     # what is compiled already serves other types and callers too
     assert _eighths(np.array([8, 16])) == 3.0
+
+
+def test_functions_of_numpy_are_parts_of_the_kernel_that_calls_them() -> None:
+    compiled_ones = []
+
+    class Heard(event.Listener):  # type: ignore[misc]
+        def on_start(self, event) -> None:
+            compiled_ones.append(event.data["dispatcher"].py_func.__name__)
+
+        def on_end(self, event) -> None:
+            pass
+
+    @njit(error_model="numpy")
+    def spread(values):
+        room = np.zeros((values.size, 2))
+        room[:, 1] = np.cumsum(values) + max(values[0], values[1])
+        return room.sum() + np.median(values)
+
+    with event.install_listener("numba:compile", Heard()):
+        assert spread(np.array([1.0, 2.0, 4.0])) == 1.0 + 3.0 + 7.0 + 3.0 * 2.0 + 2.0
+    assert compiled_ones == ["spread"]
 
 
 def test_a_fault_in_a_part_comes_through() -> None:
