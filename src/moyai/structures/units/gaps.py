@@ -17,7 +17,7 @@ from moyai.core.arrays import Array
 from moyai.mooring.rotations import cross_matrix
 from moyai.structures.units.assembly import RowAtLevel
 from moyai.structures.units.faces import Meeting, UnitFace, gaps_between
-from moyai.structures.units.links import displacement, hold_together
+from moyai.structures.units.links import hold_together
 
 
 @dataclass(frozen=True, eq=False)
@@ -54,14 +54,15 @@ class Gap:
 
     def largest(self, position: Array) -> float:
         """Return the largest closing of any corner [m] over positions (n, m) of the row."""
-        most = np.full(len(position), -np.inf)
-        for near, far, along, weight in zip(*self.arms, self.along, self.weight, strict=True):
-            one, other = (
-                displacement(position[:, 6 * unit : 6 * unit + 6], arm, self.bend)
-                for unit, arm in zip(self.pair, (near, far), strict=True)
-            )
-            most = np.maximum(most, weight * ((one - other) @ along))
-        return float(most.max())
+        closing = position @ self.rows(position.shape[1]).T
+        if self.bend:
+            # the second order of moyai.structures.units.links.displacement, along the gap
+            for unit, sign, arms in zip(self.pair, (1.0, -1.0), self.arms, strict=True):
+                turn = position[:, 6 * unit + 3 : 6 * unit + 6]
+                bent = (turn @ arms.T) * (turn @ self.along.T)
+                bent -= np.einsum("ni,ni->n", turn, turn)[:, None] * np.einsum("ci,ci->c", arms, self.along)
+                closing += 0.5 * self.bend * sign * self.weight * bent
+        return float(closing.max())
 
 
 @lru_cache(maxsize=16)
