@@ -256,7 +256,10 @@ class _Kernel(_Whole):
 
 def _part(**options: Any) -> Callable[[Callable[..., Any]], Any]:
     """Return a decorator of functions that numba brings for kernels: they are parts of what calls them."""
-    return partial(_Kernel, targetoptions={"nopython": True, "boundscheck": None, **options}, pipeline_class=Compiler)
+    kinds, pipeline = options.pop("locals", {}), options.pop("pipeline_class", Compiler)
+    options.pop("cache", None)  # parts are kept with what calls them
+    target = {"nopython": True, "boundscheck": None, **options}
+    return partial(_Kernel, locals=kinds, targetoptions=target, pipeline_class=pipeline)
 
 
 def njit(*, pointer: bool = False, **options: Any) -> Callable[[Callable[..., Any]], Any]:

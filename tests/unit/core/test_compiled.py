@@ -4,6 +4,7 @@ import importlib.util
 import pickle
 from pathlib import Path
 
+import numba
 import numpy as np
 import pytest
 from numba.core import event
@@ -91,6 +92,28 @@ def test_functions_of_numpy_are_parts_of_the_kernel_that_calls_them() -> None:
     with event.install_listener("numba:compile", Heard()):
         assert spread(np.array([1.0, 2.0, 4.0])) == 1.0 + 3.0 + 7.0 + 3.0 * 2.0 + 2.0
     assert compiled_ones == ["spread"]
+
+
+def test_functions_of_numba_itself_compile_as_before() -> None:
+    _half(1.0)  # a kernel of the package has changed how numba compiles
+
+    @numba.njit(parallel=True)
+    def spread(rows):
+        total = 0.0
+        for number in numba.prange(len(rows)):
+            total += np.linalg.norm(rows[number]) + np.median(rows[number]) + np.sort(rows[number])[0]
+        return total + np.linalg.svd(rows)[1].sum()
+
+    @numba.njit
+    def counted(values):
+        found = {1: 2.0}
+        found[2] = np.percentile(values, 30.0)
+        return found[2] + len(str(values.size)) + sorted([3, 1])[0] + np.histogram(values, 5)[0].sum()
+
+    rows = np.random.default_rng(0).uniform(size=(6, 6))
+    expected = np.linalg.norm(rows, axis=1) + np.median(rows, axis=1) + rows.min(axis=1)
+    assert spread(rows) == pytest.approx(expected.sum() + np.linalg.svd(rows)[1].sum())
+    assert counted(rows[0]) == pytest.approx(np.percentile(rows[0], 30.0) + 1 + 1 + 6)
 
 
 def test_a_fault_in_a_part_comes_through() -> None:
