@@ -131,8 +131,12 @@ def _form(field: FieldInfo) -> str:
     if words:
         every = "list of " if many and inner is None and not models and "all" not in words[0] else ""
         parts.append(every + ", ".join(words))
+    whole = int in _plain_types(field.annotation) and inner is None
     if inner is None and many and not models and not (words and "all" not in words[0]):
-        parts.append("list of whole numbers" if int in _plain_types(field.annotation) else "list of names")
+        parts.append(f"list of whole numbers{_bounds(field)}" if whole else "list of names")
+    elif whole:
+        texts = ["text"] * (str in _plain_types(field.annotation))
+        parts += [*texts, f"whole number{_bounds(field)}"]
     if inner is not None:
         container = "list of " if many else ("names, each with " if _holds(field.annotation, dict) else "")
         parts.append(container + _quantity(inner))
@@ -142,9 +146,29 @@ def _form(field: FieldInfo) -> str:
         return " or ".join(parts)
     if bool in (field.annotation, *typing.get_args(field.annotation)):
         return "true or false"
-    if field.annotation is int:
-        return "whole number"
     return "names, each with text" if _holds(field.annotation, dict) else "text"
+
+
+#: An upper limit of a whole number from which it is only there against slips.
+_NO_LIMIT = 1_000_000
+
+
+def _bounds(field: FieldInfo) -> str:
+    """Return the least and the most of a whole number, where both or one are given."""
+    entries = [*field.metadata, *_further_metadata(field.annotation)]
+    least = next((entry.ge for entry in entries if hasattr(entry, "ge")), None)
+    most = next((entry.le for entry in entries if hasattr(entry, "le") and entry.le < _NO_LIMIT), None)
+    if least is None and most is None:
+        return ""
+    return f", {least} or more" if most is None else f", {most} or less" if least is None else f", {least} to {most}"
+
+
+def _further_metadata(annotation: Any) -> Iterator[Any]:
+    for entry in getattr(annotation, "__metadata__", ()):
+        yield entry
+        yield from getattr(entry, "metadata", ())
+    for argument in typing.get_args(annotation):
+        yield from _further_metadata(argument)
 
 
 def _plain_types(annotation: Any) -> list[Any]:

@@ -4,7 +4,7 @@ An operator between numbers has the same type each time; numba tries its rules f
 time. Here the answer is kept for a set of argument types. Flags are compared by what was set. An array written into a
 slice of another shape raises a fixed text: to put the shapes into words takes longer to compile than most kernels.
 Functions of numpy are taken in as parts, like kernels that others call. The names in a statement are listed without
-asking each of its values for its type twice, and no listener is told of every call of the compiler's library.
+asking each of its values for its type twice; calls of the compiler's library raise no events.
 What a kernel computes does not change.
 """
 

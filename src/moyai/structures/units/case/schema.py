@@ -57,16 +57,26 @@ class UnitPlace(Block):
 class Units(Block):
     """How many units there are, and where."""
 
-    exactly_one: ClassVar[KeyGroups] = (("count", "places"), ("gap", "places"))
+    exactly_one: ClassVar[KeyGroups] = (("count", "places"),)
+    at_most_one: ClassVar[KeyGroups] = (("gap", "places"),)
 
     length: PositiveLength = Field(description="Length of one unit along its axis.")
     count: Annotated[int, Field(strict=True, ge=1, le=60)] | None = Field(
         default=None, description="Number of units one after the other along y, the middle of the row at the origin."
     )
-    gap: PositiveLength | None = Field(default=None, description="Clear water between two units.")
+    gap: PositiveLength | None = Field(
+        default=None, description="Clear water between two units; a unit alone has none."
+    )
     places: Annotated[tuple[UnitPlace, ...], Field(max_length=60)] = Field(
         default=(), description="In place of count and gap: every unit with its place, for L, T and bent rows."
     )
+
+    @classmethod
+    def _between_keys(cls, data: dict[str, Any]) -> list[tuple[str, str, str]]:
+        faults = super()._between_keys(data)
+        if data.get("count", 1) != 1 and "gap" not in data and "places" not in data:
+            faults.append(("", "'gap' is missing", "give the clear water between two units"))
+        return faults
 
 
 class UnitDamping(DampingBeyondWaves):
