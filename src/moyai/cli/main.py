@@ -43,6 +43,7 @@ from moyai.cli.console import (
 from moyai.cli.convert import Depth, Duration, Motion, case_of_deck, convert
 from moyai.cli.fit import fit
 from moyai.cli.help_pages import SpokenGroup
+from moyai.cli.interrupts import interrupt
 from moyai.cli.measuring import measure
 from moyai.cli.query import query
 from moyai.cli.report import Language, ReportCommand, Units
@@ -467,7 +468,10 @@ def main() -> None:
     # Imports and the compiler make a million objects that live on: the search for garbage among them costs a tenth
     gc.set_threshold(100_000, 50, 50)
     # Whoever ends the program politely gets the partial result as with Ctrl-C
-    signal.signal(signal.SIGTERM, signal.default_int_handler)
+    signal.signal(signal.SIGTERM, interrupt)
+    # A shell has background jobs ignore Ctrl-C, and they go on doing so
+    if signal.getsignal(signal.SIGINT) is signal.default_int_handler:
+        signal.signal(signal.SIGINT, interrupt)
     arguments = sys.argv[1:]
     if "--debug" in arguments:
         # Accepted at any place, since it is wanted after the fact

@@ -83,3 +83,23 @@ def test_closed_standard_output_ends_without_a_traceback(tmp_path, command, clos
     subprocess.run(["/bin/sh", "-c", line], check=False)
     errors = (tmp_path / "errors").read_text(encoding="utf-8")
     assert "Traceback" not in errors and "internal error" not in errors
+
+
+@pytest.mark.skipif(sys.platform == "win32", reason="signals to oneself differ there")
+def test_an_interrupt_waits_for_an_import(tmp_path):
+    (tmp_path / "half.py").write_text(
+        "import os, signal, time\nos.kill(os.getpid(), signal.SIGINT)\ntime.sleep(0.1)\ncomplete = 'complete'\n",
+        encoding="utf-8",
+    )
+    program = (
+        "import signal, time\n"
+        "from moyai.cli.interrupts import interrupt\n"
+        "signal.signal(signal.SIGINT, interrupt)\n"
+        "try:\n"
+        "    import half\n"
+        "    time.sleep(20.0)\n"
+        "except KeyboardInterrupt:\n"
+        "    print(half.complete)\n"
+    )
+    done = subprocess.run([sys.executable, "-c", program], capture_output=True, text=True, cwd=tmp_path, timeout=60.0)
+    assert done.stdout.strip() == "complete", done.stderr
