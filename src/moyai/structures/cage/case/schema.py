@@ -116,7 +116,7 @@ class RigidCageSettingsKeys(Block):
     realisations: Annotated[int, Field(strict=True, ge=1, le=100)] = Field(
         default=5,
         description="Realisations of an irregular sea, the first with the sea's own seed; largest tensions and "
-        "offset are means over them. Default: 5.",
+        "offset are means over them. The literal equations run the first alone. Default: 5.",
     )
     stiffness_factors: Annotated[
         tuple[PositiveNumber, ...], Field(min_length=2, max_length=30), AfterValidator(once_each)
