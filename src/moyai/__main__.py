@@ -1,6 +1,20 @@
-"""The command line as ``python -m moyai``."""
+"""The command line, also as ``python -m moyai``."""
 
-from moyai.cli.main import main
+import sys
+
+from moyai.cli.interrupts import listen
+
+
+def main() -> None:
+    """Entry point of the ``moyai`` command: Ctrl-C is heard before the commands are loaded."""
+    listen()
+    try:
+        from moyai.cli.main import main as run
+
+        run()
+    except KeyboardInterrupt:
+        sys.exit("interrupted")
+
 
 if __name__ == "__main__":
     main()

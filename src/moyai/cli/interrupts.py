@@ -1,24 +1,47 @@
-"""Ctrl-C between two imports: a module that is left half loaded spoils whatever asks for it afterwards."""
+"""Ctrl-C after an import, or after results are written, where it comes within.
+
+A module that is left half loaded spoils whatever asks for it afterwards.
+"""
 
 from __future__ import annotations
 
 import signal
 import threading
 import time
+from collections.abc import Iterator
+from contextlib import contextmanager
 from types import FrameType
 
-#: Seconds after which Ctrl-C is passed on again, and after which it ends an import all the same.
-_AGAIN, _PATIENCE = 0.02, 10.0
+#: Seconds after which Ctrl-C is passed on again, and after which it comes through all the same.
+_AGAIN, _PATIENCE = 0.02, 30.0
 
 
 class _Interrupts:
-    """When the first one came that an import held back; ``None`` while none is."""
-
+    #: When the first one came that is held back; ``None`` while none is.
     since: float | None = None
+    held_back = False
+
+
+@contextmanager
+def held_back() -> Iterator[None]:
+    """Hold interrupts back until the block ends."""
+    _Interrupts.held_back = True
+    try:
+        yield
+    finally:
+        _Interrupts.held_back = False
+
+
+def listen() -> None:
+    """Take Ctrl-C, and what ends the program politely, in the way of this module."""
+    signal.signal(signal.SIGTERM, interrupt)
+    # a shell has background jobs ignore Ctrl-C, and they go on doing so
+    if signal.getsignal(signal.SIGINT) is signal.default_int_handler:
+        signal.signal(signal.SIGINT, interrupt)
 
 
 def interrupt(number: int, frame: FrameType | None) -> None:
-    """Raise KeyboardInterrupt, after the import that is going on.
+    """Raise KeyboardInterrupt, after the import that is going on or the block of :func:`held_back`.
 
     Parameters
     ----------
@@ -32,7 +55,7 @@ def interrupt(number: int, frame: FrameType | None) -> None:
     KeyboardInterrupt
     """
     now = time.monotonic()
-    if _importing(frame) and now - (_Interrupts.since or now) < _PATIENCE:
+    if (_Interrupts.held_back or _importing(frame)) and now - (_Interrupts.since or now) < _PATIENCE:
         _Interrupts.since = _Interrupts.since or now
         again = threading.Timer(_AGAIN, _send, (number,))
         again.daemon = True

@@ -8,7 +8,6 @@ from __future__ import annotations
 import gc
 import os
 import re
-import signal
 import sys
 import time
 from collections.abc import Iterator
@@ -38,12 +37,13 @@ from moyai.cli.console import (
     put,
     rich_console,
     say,
+    stop,
     tell,
 )
 from moyai.cli.convert import Depth, Duration, Motion, case_of_deck, convert
 from moyai.cli.fit import fit
 from moyai.cli.help_pages import SpokenGroup
-from moyai.cli.interrupts import interrupt
+from moyai.cli.interrupts import held_back, listen
 from moyai.cli.measuring import measure
 from moyai.cli.query import query
 from moyai.cli.report import Language, ReportCommand, Units
@@ -51,6 +51,7 @@ from moyai.cli.report import report as report_command
 from moyai.cli.reproduce import reproduce
 from moyai.cli.scale import scale
 from moyai.cli.study import study
+from moyai.core.errors import Fault
 from moyai.core.version import VERSION
 from moyai.core.wording import counted
 from moyai.language import said, speak
@@ -278,9 +279,12 @@ def run(
                     result = result.shown_in(units)
                 if (asked := language or Spoken.language) is not None:
                     result = result.said_in(asked)
-                files = [result.write(staged / "results.nc")]
+                with held_back():
+                    files = [result.write(staged / "results.nc")]
                 if report:
-                    document, pages = _report(result, staged, others, pdf=pdf, quiet=quiet)
+                    document, pages = _kept_and_reported(
+                        result, staged, folder, others, pdf=pdf, quiet=quiet, as_json=as_json
+                    )
                     files += pages
                 files = put_in_place(staged, folder, files)
         if document is not None and getattr(case.model, "measured", None):
@@ -330,6 +334,21 @@ def _compiling(kind: str, quiet: bool) -> Iterator[None]:
 
     with when_compiling(say_once), compiling_ahead(kind):
         yield
+
+
+def _kept_and_reported(
+    result: Result, staged: Path, folder: Path, others: tuple[Any, ...], *, pdf: bool, quiet: bool, as_json: bool
+) -> tuple[Document, list[Path]]:
+    """Write the report as :func:`_report` does; results stay where it is interrupted."""
+    from moyai.core.run_folder import keeping_results
+
+    try:
+        with keeping_results(staged, folder):
+            return _report(result, staged, others, pdf=pdf, quiet=quiet)
+    except KeyboardInterrupt:
+        place = folder / "results.nc"
+        fault = Fault(f"the report was interrupted; {place} is complete", remedy=f"'moyai report {place}' writes it")
+        stop([fault], FAILED, as_json=as_json)
 
 
 def _report(
@@ -467,11 +486,7 @@ def main() -> None:
     prepare_streams()
     # Imports and the compiler make a million objects that live on: the search for garbage among them costs a tenth
     gc.set_threshold(100_000, 50, 50)
-    # Whoever ends the program politely gets the partial result as with Ctrl-C
-    signal.signal(signal.SIGTERM, interrupt)
-    # A shell has background jobs ignore Ctrl-C, and they go on doing so
-    if signal.getsignal(signal.SIGINT) is signal.default_int_handler:
-        signal.signal(signal.SIGINT, interrupt)
+    listen()
     arguments = sys.argv[1:]
     if "--debug" in arguments:
         # Accepted at any place, since it is wanted after the fact

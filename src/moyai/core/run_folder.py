@@ -135,6 +135,25 @@ def put_in_place(staged: Path, folder: Path, files: Sequence[Path]) -> list[Path
     return [folder / path.relative_to(staged) for path in files]
 
 
+@contextmanager
+def keeping_results(staged: Path, folder: Path) -> Iterator[None]:
+    """Put results in place alone where the block that writes their report does not come to its end.
+
+    Parameters
+    ----------
+    staged : Path
+        From :func:`staged_outputs`, with results that are complete.
+    folder : Path
+    """
+    try:
+        yield
+    except BaseException:
+        for name in _OUTPUTS[:-1]:
+            _remove(staged / name)
+        put_in_place(staged, folder, ())
+        raise
+
+
 def _remove(path: Path) -> None:
     if path.is_dir() and not path.is_symlink():
         shutil.rmtree(path)

@@ -6,7 +6,7 @@ import os
 import pytest
 
 from moyai.core.errors import InputError
-from moyai.core.run_folder import alone_in, put_in_place, staged_outputs
+from moyai.core.run_folder import alone_in, keeping_results, put_in_place, staged_outputs
 
 
 def outputs(folder, run, tables):
@@ -65,3 +65,13 @@ def test_the_second_run_in_a_folder_is_refused_until_the_first_ends(tmp_path):
         pass
     with alone_in(tmp_path):
         pass
+
+
+def test_results_stay_where_their_report_does_not_come_to_its_end(tmp_path):
+    outputs(tmp_path, "first", ("motion",))
+    with contextlib.suppress(KeyboardInterrupt), staged_outputs(tmp_path) as staged:
+        outputs(staged, "second", ("motion",))
+        with keeping_results(staged, tmp_path):
+            raise KeyboardInterrupt
+    assert [path.name for path in tmp_path.iterdir()] == ["results.nc"]
+    assert (tmp_path / "results.nc").read_text() == "second"
