@@ -7,6 +7,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
+from moyai.structures.units import bem
 from moyai.structures.units.bem import MeshPanels, panels_of, solve_frequency
 from moyai.structures.units.drift import near_drift, reconciled
 from moyai.structures.units.hydrodynamics import RowHydrodynamics, solve_row
@@ -139,3 +140,32 @@ def test_rows_of_other_damping_share_the_sums_and_rows_of_other_joints_do_not() 
     assert NearField.of(replace(field.at, row=field.at.row.damped(2.0)), panels) is kept
     hinged = at_rest(row((Connector("h", "hinge", ((0, 1),), 0.0, 3.0, (1.0, 0.0, 0.0)),)))
     assert NearField.of(hinged, panels) is not kept
+
+
+def _far_drift(placements: tuple[Placement, ...], omega: float) -> np.ndarray:
+    """Return the mean drift (3,) of units that are held, per amplitude squared, in waves at 0.6 rad."""
+    at = at_rest(replace(row(count=len(placements)), placements=placements, connectors=()))
+    mesh = row_mesh(at.section, LENGTH, at.row.placements, 4.0, lid=False, gap_lid=False)
+    hydro = solve_row(panels_of(mesh, at.centres), WATER, at.centres, np.array([omega]), np.array([0.6]))
+    model = RowModel(at, hydro, np.zeros(at.size))
+    free = respond(model, hydro.omega, np.zeros(len(at.joints)))
+    return far_waves(model, replace(free, motion=np.zeros_like(free.motion))).drift[0, 0]
+
+
+def test_a_unit_that_is_moved_takes_its_drift_with_it() -> None:
+    here, there = (_far_drift((Placement(x, y, 0.3),), 1.6) for x, y in ((0.0, 0.0), (400.0, -900.0)))
+    assert there[:2] == pytest.approx(here[:2], rel=1e-9)
+    turned = here[2] + 400.0 * here[1] + 900.0 * here[0]
+    assert there[2] == pytest.approx(turned, rel=1e-9)
+
+
+def test_far_waves_of_units_far_apart_have_directions_enough(monkeypatch: pytest.MonkeyPatch) -> None:
+    places = (Placement(0.0, -240.0, 0.0), Placement(60.0, 240.0, 0.2))
+    found = _far_drift(places, 2.5)
+    monkeypatch.setattr(bem, "FEWEST_DIRECTIONS", 1500)
+    assert found == pytest.approx(_far_drift(places, 2.5), rel=1e-7)
+
+
+def test_far_waves_in_more_directions_are_the_same_waves() -> None:
+    waves = [np.exp(1j * 7.0 * np.cos(bem.directions(count) - 0.4)) for count in (60, 200)]
+    assert np.abs(bem.in_directions(waves[0], 200) - waves[1]).max() < 1e-12

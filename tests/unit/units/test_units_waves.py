@@ -71,7 +71,7 @@ def test_far_waves_are_those_of_the_field(box):
     angle = np.array([0.0, 0.7, 1.6, 3.0])
     points = 2000.0 * np.stack([np.cos(angle), np.sin(angle)], axis=1)
     near = elevation_at(points, panels, WATER, 1.2, found.diffraction, given)[:, 0]
-    far = far_amplitudes(panels, WATER, 1.2, k, found.diffraction, given, angle)[0]
+    far = far_amplitudes(panels, WATER, 1.2, k, found.diffraction, given, angle, np.zeros(2))[0]
     far = far * np.sqrt(2.0 / (np.pi * k * 2000.0)) * np.exp(1j * (k * 2000.0 - 0.25 * np.pi))
     assert np.abs(near - far).max() < 0.01 * np.abs(far).max()
 

@@ -36,8 +36,8 @@ from moyai.structures.units.wave_green import WaveGreen, far_factor
 _COMPLEX = 16
 #: Least kh of the Green function in finite depth
 LEAST_DEPTH = 0.1
-#: Directions of the far field
-DIRECTIONS = 180
+#: Directions of the far field at least, and how far beyond their last order its waves fade: below 1e-8
+FEWEST_DIRECTIONS, FADING = 180, 8.0
 #: Points whose field is evaluated at once
 _BATCH = 500
 #: Points a direction on panels far from a source
@@ -78,6 +78,20 @@ class MeshPanels:
         """Return the largest distance in plan [m] of points (p, 2 or 3) from panels."""
         every = np.concatenate([points[:, :2], self.mesh.centre[:, :2], self.mesh.corners[:, :, :2].reshape(-1, 2)])
         return float(np.linalg.norm(np.ptp(every, axis=0)))
+
+    @cached_property
+    def middle(self) -> Array:
+        """Middle of the hulls in plan (2,) [m], about which far waves are taken."""
+        plan = self.mesh.centre[:, :2]
+        return np.asarray(0.5 * (plan.min(axis=0) + plan.max(axis=0)))
+
+    def direction_count(self, k: float) -> int:
+        """Return how many directions hold the far waves of a wave number [1/m] [eq:units-directions].
+
+        Their Fourier orders fade beyond k times the distance of the hulls from their middle.
+        """
+        across = k * float(np.linalg.norm(self.mesh.centre[:, :2] - self.middle, axis=1).max())
+        return max(FEWEST_DIRECTIONS, 2 * int(np.ceil(across + FADING * across ** (1.0 / 3.0) + 10.0)))
 
     @property
     def lowest(self) -> float:
@@ -177,8 +191,8 @@ class Solution:
     radiation: ComplexArray
     #: Potential on the panels per unit wave amplitude, incident wave left out; in gaps as above; shape (n, h).
     diffraction: ComplexArray
-    #: Amplitude A of the far waves A sqrt(2 / (pi k R)) e^{i (k R - pi/4)} per unit displacement; shape (m,
-    #: directions).
+    #: Amplitude A of the far waves A sqrt(2 / (pi k R)) e^{i (k R - pi/4)} per unit displacement, R from the middle of
+    #: the hulls; shape (m, directions).
     radiated: ComplexArray
     #: Amplitude A of the same far waves per unit wave amplitude; shape (h, directions).
     scattered: ComplexArray
@@ -193,9 +207,20 @@ class Solution:
         )  # fmt: skip
 
 
-def directions() -> Array:
-    """Return the directions of the far field [rad]."""
-    return np.arange(DIRECTIONS) * 2.0 * math.pi / DIRECTIONS
+def directions(count: int) -> Array:
+    """Return so many directions of the far field [rad]."""
+    return np.arange(count) * 2.0 * math.pi / count
+
+
+def in_directions(waves: ComplexArray, count: int) -> ComplexArray:
+    """Return far waves (..., d) in so many directions, no fewer, by their Fourier series."""
+    given = waves.shape[-1]
+    if given == count:
+        return waves
+    series, half = np.fft.fft(waves), given // 2
+    out = np.zeros((*waves.shape[:-1], count), dtype=complex)
+    out[..., :half], out[..., half - given :] = series[..., :half], series[..., half:]
+    return np.asarray(np.fft.ifft(out) * (count / given))
 
 
 def solve_frequency(panels: MeshPanels, water: Water, omega: float, headings: Array) -> Solution:
@@ -235,7 +260,8 @@ def solve_frequency(panels: MeshPanels, water: Water, omega: float, headings: Ar
     by_radiation = froude_krylov.T - water.density * flow @ surface[hull, :count]
     damped = (incident[~wet] * areas[~wet, None]).T
     by_radiation = by_radiation + water.density * damped @ surface[~wet, :count]
-    far = far_amplitudes(panels, water, omega, k, surface, given)
+    angles = directions(panels.direction_count(k))
+    far = far_amplitudes(panels, water, omega, k, surface, given, angles, panels.middle)
     return Solution(
         omega, k, on_motion.real / omega**2, on_motion.imag / omega, excitation, surface[:, :count],
         surface[:, count:], far[:count], far[count:], _departure(excitation, by_radiation),
@@ -356,14 +382,15 @@ def _layers(panels: MeshPanels, surface: ComplexArray, given: ComplexArray) -> t
 
 def far_amplitudes(
     panels: MeshPanels, water: Water, omega: float, k: float, surface: ComplexArray, given: ComplexArray,
-    angles: Array | None = None,
+    angles: Array, about: Array,
 ) -> ComplexArray:  # fmt: skip
-    """Return the amplitudes (r, directions) of the far waves of solutions (n, r) [eq:units-far-field]."""
+    """Return the amplitudes (r, directions) of the far waves, about a point (2,), of solutions (n, r)
+    [eq:units-far-field]."""
     mesh = panels.mesh
-    angles = directions() if angles is None else angles
     centre, normal, area = mesh.centre, mesh.normal, panels.variation.areas[:, None]
     cosine, sine = np.cos(angles), np.sin(angles)
-    phase = np.exp(-1j * k * (centre[:, [0]] * cosine + centre[:, [1]] * sine))
+    apart = centre[:, :2] - about
+    phase = np.exp(-1j * k * (apart[:, [0]] * cosine + apart[:, [1]] * sine))
     profile = _depth_profile(centre[:, 2], k, water.depth)[:, None]
     rate = _sinh_profile(centre[:, 2], k, water.depth)[:, None]
     across = normal[:, [0]] * cosine + normal[:, [1]] * sine

@@ -19,11 +19,12 @@ from moyai.core.version import VERSION
 from moyai.sea.dispersion import group_velocity
 from moyai.sea.water import Water
 from moyai.structures.units.bem import (
-    DIRECTIONS,
+    FADING,
+    FEWEST_DIRECTIONS,
     MeshPanels,
     Solution,
     check_memory,
-    directions,
+    in_directions,
     solve_frequency,
 )
 
@@ -36,7 +37,7 @@ SYMMETRY, HASKIND, ENERGY = 0.1, 0.05, 0.05
 _RECENT: dict[str, Solution] = {}
 RECENT_BYTES = 200_000_000
 #: How coefficients are computed, a part of the key of what is kept: changes where numbers do
-METHOD = "exact Green function, its logarithm over panels"
+METHOD = "exact Green function, its logarithm over panels, far waves about the middle"
 
 
 @dataclass(frozen=True, eq=False)
@@ -90,9 +91,10 @@ class RowHydrodynamics:
     @cached_property
     def far(self) -> tuple[ComplexArray, ComplexArray]:
         """Far waves of the row held (f, h, directions) and of its motions (f, m, directions)."""
+        count = max(item.radiated.shape[1] for item in self.solutions)
         return (
-            np.array([item.scattered for item in self.solutions]),
-            np.array([item.radiated for item in self.solutions]),
+            np.array([in_directions(item.scattered, count) for item in self.solutions]),
+            np.array([in_directions(item.radiated, count) for item in self.solutions]),
         )
 
     def phase(self, k: Array) -> ComplexArray:
@@ -192,7 +194,7 @@ def solve_row(
     solutions = []
     base = key_of(
         VERSION, METHOD, panels.mesh.corners, panels.mesh.part, centres, panels.gap_damping, panels.even,
-        (water.depth, water.density, water.gravity), headings, DIRECTIONS,
+        (water.depth, water.density, water.gravity), headings, FEWEST_DIRECTIONS, FADING,
     )  # fmt: skip
     for index, frequency in enumerate(omega):
         progress("coefficients of the row", index, len(omega))
@@ -303,5 +305,5 @@ def far_damping(found: Solution, water: Water) -> Array:
     """Return the damping (m, m) that the far waves carry away [eq:units-radiated-energy]."""
     speed = float(group_velocity(found.omega, water.depth, water.gravity))
     factor = 2.0 * water.density * water.gravity * speed / (math.pi * found.wave_number * found.omega**2)
-    step = 2.0 * math.pi / len(directions())
+    step = 2.0 * math.pi / found.radiated.shape[1]
     return np.asarray(factor * step * np.real(found.radiated @ found.radiated.conj().T))

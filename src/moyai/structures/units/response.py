@@ -234,7 +234,8 @@ def gaussian_stiffness(curve: Curve, mean: float, deviation: float) -> float:
 class FarWaves:
     """Far waves of the moving row at frequencies of the coefficients."""
 
-    #: As of :class:`moyai.structures.units.bem.Solution`, motions included; shape (f, h, directions).
+    #: As of :class:`moyai.structures.units.bem.Solution`, motions included, for incident waves whose phase is that at
+    #: the middle of the hulls; shape (f, h, directions).
     amplitude: ComplexArray
     #: The same in the direction of the incident wave; shape (f, h).
     forward: ComplexArray
@@ -276,9 +277,13 @@ def _group_speed(model: RowModel) -> Array:
 def _far_field(model: RowModel, motion: ComplexArray) -> tuple[ComplexArray, ComplexArray, Array]:
     """Return far waves in all directions (f, h, d), in that of the incident wave (f, h), and drift (f, h, 3)."""
     hydro, water = model.hydro, model.at.water
+    assert hydro.panels is not None
     scattered, radiated = hydro.far
-    total = scattered + motion @ radiated
-    angle = directions()
+    x, y = hydro.panels.middle
+    # far waves lie about the middle of the hulls, incident waves about the origin
+    ahead = hydro.wave_number[:, None] * (x * np.cos(hydro.headings) + y * np.sin(hydro.headings))
+    total = (scattered + motion @ radiated) * np.exp(-1j * ahead)[..., None]
+    angle = directions(total.shape[2])
     order = np.fft.fftfreq(len(angle), 1.0 / len(angle))
     series = np.fft.fft(total, axis=2) / len(angle)
     slope = np.fft.ifft(1j * order * series * len(angle), axis=2)
@@ -298,6 +303,7 @@ def _far_field(model: RowModel, motion: ComplexArray) -> tuple[ComplexArray, Com
         ],
         axis=2,
     )
+    drift[..., 2] += x * drift[..., 1] - y * drift[..., 0]
     return total, forward, drift
 
 

@@ -126,6 +126,8 @@ def run_numbers(given: SeaRun) -> Numbers:
 def _over_time(operation: np.ufunc, values: Array) -> Array:
     """Return a sum or an extreme over the first axis, many rows side by side: numpy goes slowly through short rows."""
     width = math.prod(values.shape[1:])
+    if width == 0:
+        return np.zeros(values.shape[1:])
     whole = len(values) // _SIDE_BY_SIDE * _SIDE_BY_SIDE
     folded = operation.reduce(values[:whole].reshape(-1, _SIDE_BY_SIDE * width), axis=0) if whole else []
     rows = np.concatenate([np.reshape(folded, (-1, *values.shape[1:])), values[whole:]])
