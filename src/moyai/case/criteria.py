@@ -75,7 +75,7 @@ def line_criteria(given: LineCriteria, default: str, analysis: str, names: Itera
         How the tensions are found: ``dynamic``, ``quasi_static`` or ``static``; empty leaves it to the run, with one
         criterion for the numbers of either analysis.
     names : iterable of str or None
-        Materials of the lines in the catalogue.
+        What the lines are made of, as :func:`moyai.case.line_code.make_of` gives it.
     """
     factor = given.line_safety_factor
     if factor is not None:

@@ -47,7 +47,7 @@ def code_criterion(given: Any, analysis: str, names: Iterable[str | None], *, as
     analysis : str
         How the case finds the tensions: ``dynamic``, ``quasi_static`` or ``static``.
     names : iterable of str or None
-        Catalogue names of the segments; ``None`` for one of its own properties, which may be of any material.
+        What segments are made of, as :func:`make_of` gives it; ``None`` may be of any material.
     assumed : bool
         Whether the program chose the code.
 
@@ -93,6 +93,16 @@ def code_criterion(given: Any, analysis: str, names: Iterable[str | None], *, as
     )
 
 
+def make_of(part: Any) -> str | None:
+    """Return what a line or a segment says it is made of: its name in the catalogue, or its component."""
+    return getattr(part, "catalogue", None) or getattr(part, "component", None)
+
+
+def component_of(name: str) -> str:
+    """Return what a line of the catalogue is made of: chain, wire or rope."""
+    return "chain" if "chain" in name else "wire" if "wire" in name else "rope"
+
+
 def _materials(rules: tuple[CodeRule, ...], names: Iterable[str | None]) -> set[str]:
     """Return what lines are made of; where a line does not say it, any new material that the code knows."""
     found: set[str] = set()
@@ -101,7 +111,7 @@ def _materials(rules: tuple[CodeRule, ...], names: Iterable[str | None]) -> set[
             known = {rule.component for rule in rules} - {"any", "knotted_rope", "used_chain", "shackle"}
             found |= known or {"line"}
         else:
-            found.add("chain" if "chain" in name else "wire" if "wire" in name else "rope")
+            found.add(component_of(name))
     return found or {"line"}
 
 

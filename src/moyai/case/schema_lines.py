@@ -8,12 +8,14 @@ from typing import Annotated, Any, ClassVar, Literal
 from pydantic import AfterValidator, Discriminator, Field, Tag
 
 from moyai.case.schema_types import (
+    COMPONENT,
     AddedMass,
     AxialStiffness,
     Block,
     Force,
     KeyGroups,
     Length,
+    LineComponent,
     MassPerLength,
     Name,
     NonNegativeLength,
@@ -100,6 +102,7 @@ class OwnSegment(Block):
         default=0.0, description="Added mass along the line over the displaced mass. Default: 0."
     )
     name: Name | None = Field(default=None, description="Name of the material in reports.")
+    component: LineComponent | None = Field(default=None, description=COMPONENT)
 
 
 class ClumpKeys(Block):

@@ -241,6 +241,11 @@ class Notes:
         self.faults.append((id(block), key, message, remedy))
 
 
+#: What a line with properties of its own is made of, and the words for it.
+LineComponent = Literal["chain", "rope", "wire"]
+COMPONENT = "What it is made of, for the factors of design codes; absent: the strictest of the code."
+
+
 class Block(BaseModel):
     """A block of keys: unknown keys are faults, and the rules between keys are declared next to them."""
 

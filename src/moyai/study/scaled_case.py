@@ -14,6 +14,7 @@ from typing import Annotated, Any, Literal
 
 import yaml
 
+from moyai.case.line_code import component_of
 from moyai.case.reader import Case, case_of
 from moyai.case.schema_lines import CatalogueSegment
 from moyai.case.schema_types import Block, QuantityOf
@@ -22,6 +23,8 @@ from moyai.core.errors import CaseError, InputError
 from moyai.core.options import checks_words
 from moyai.core.quantities import VISCOSITY, QuantityKind, parse_quantity
 from moyai.design.similarity import Scale, ScaledQuantity
+from moyai.structures.cage.case.schema_flexible import RopeEntry
+from moyai.structures.network.case.schema_parts import CatalogueType
 from moyai.study.scaled_files import scaled_files
 from moyai.study.scaled_materials import Figures, equivalents
 from moyai.study.scaled_text import Edits, number_text, without_remarks, written_in
@@ -134,6 +137,8 @@ def scale_case(case: Case, scale: Scale, *, from_model: bool = False, digits: in
             entries = [f"{name}: {_new(row, from_model, digits)}" for name, row in zip(figures, own, strict=True)]
             if isinstance(block, CatalogueSegment) and block.catalogue:
                 entries.append(f"name: {block.catalogue}")
+            if isinstance(block, CatalogueSegment | CatalogueType | RopeEntry):
+                entries.append(f"component: {component_of(make)}")
             edits.replace_entry(node, key, entries, f"figures of {make} scaled, which no thinner one has")
             rows += [row for row in own if row.ratio != 1.0]
     for path, (name, _) in files.items():

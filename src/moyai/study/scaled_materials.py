@@ -18,7 +18,7 @@ from moyai.structures.cage.case.schema_flexible import RopeEntry
 from moyai.structures.curtain.case import schema as schema_curtain
 from moyai.structures.curtain.case.build import curtain_of
 from moyai.structures.network.case.schema_parts import CatalogueType
-from moyai.tables.lines import line_type
+from moyai.tables.lines import LineProperties, line_type
 
 Figures = dict[str, tuple[float, str]]
 
@@ -85,9 +85,15 @@ def _line(block: CatalogueSegment, case: Case) -> Figures:
             "submerged_weight": (found.submerged_weight_per_length(site.density, site.gravity), "N/m"),
             "mass": (found.mass_per_length, "kg/m"),
             "axial_stiffness": (found.axial_stiffness, "N"),
+            **_in_water(found),
             "breaking_load": (found.breaking_load, "N"),
         }
     )
+
+
+def _in_water(found: LineProperties) -> Figures:
+    names = ("drag_normal", "drag_tangential", "added_mass_normal", "added_mass_tangential")
+    return {name: (getattr(found, name), "") for name in names}
 
 
 def _line_in_motion(name: str, diameter: float, stretches: bool) -> Figures:
@@ -99,10 +105,7 @@ def _line_in_motion(name: str, diameter: float, stretches: bool) -> Figures:
             "mass": (found.mass_per_length, "kg/m"),
             "volume": (found.volume_per_length, "m2"),
             **stretch,
-            "drag_normal": (found.drag_normal, ""),
-            "drag_tangential": (found.drag_tangential, ""),
-            "added_mass_normal": (found.added_mass_normal, ""),
-            "added_mass_tangential": (found.added_mass_tangential, ""),
+            **_in_water(found),
             "breaking_load": (found.breaking_load, "N"),
         }
     )

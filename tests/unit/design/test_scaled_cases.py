@@ -7,6 +7,8 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
+from moyai.case.builder import build
+from moyai.case.criteria import criteria_of
 from moyai.case.reader import case_of, load_case
 from moyai.case.templates import template
 from moyai.case.yaml_reader import parse_yaml
@@ -448,3 +450,38 @@ def test_ropes_of_a_cage_keep_weight_stretch_and_strength(tmp_path):
     for large, small in zip(*ropes, strict=True):
         for name, power in powers.items():
             assert getattr(large, name) == pytest.approx(25.0**power * getattr(small, name), rel=1e-12), name
+
+
+def test_lines_of_a_breakwater_move_as_those_they_stand_for(tmp_path):
+    """A line of the catalogue may be set in motion, and so may what takes its place."""
+    case = read(template("breakwater"), tmp_path)
+    scaled = scale_case(case, Scale(25.0, 1.0, 1.0), digits=17)
+    large, small = (build(one).breakwater.lines for one in (case, scaled.case))
+    assert all(line.can_move for line in (*large, *small))
+    for one, other in zip(large, small, strict=True):
+        for prototype, model in zip(one.bar_types, other.bar_types, strict=True):
+            for name, power in {
+                "mass_per_length": 2, "volume_per_length": 2, "axial_stiffness": 3, "diameter": 1, "drag_normal": 0,
+                "drag_tangential": 0, "added_mass_normal": 0, "added_mass_tangential": 0,
+            }.items():  # fmt: skip
+                expected = 25.0**power * getattr(model, name)
+                assert getattr(prototype, name) == pytest.approx(expected, rel=1e-12), name
+
+
+@pytest.mark.parametrize("kind", ["breakwater", "network", "cage", "units"])
+def test_factors_of_a_code_stay_those_of_chain_and_rope(kind, tmp_path):
+    text = template(kind) + ("" if "\ncriteria:" in template(kind) else "\ncriteria: {code: NS 9415}\n")
+    case = read(text, tmp_path, f"{kind}.yaml")
+    scaled = scale_case(case, Scale(25.0, 1.0, 1.0), digits=17)
+    before, after = (
+        [one.limit for one in criteria_of(item.model) if one.headline == "line_utilisation"]
+        for item in (case, scaled.case)
+    )
+    assert before and after == pytest.approx(before)
+
+
+def test_hours_of_the_largest_snap_follow_the_time(tmp_path):
+    case = read(template("curtain"), tmp_path, "curtain.yaml")
+    scaled = scale_case(case, Scale(25.0, 1.0, 1.0), digits=17).case
+    assert case.model.settings.waves.hours == 3.0
+    assert scaled.model.settings.waves.hours == pytest.approx(0.6)

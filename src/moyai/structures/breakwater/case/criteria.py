@@ -8,6 +8,7 @@ from typing import Annotated, Any
 from pydantic import Discriminator, Field, Tag
 
 from moyai.case.criteria import CASE, DEFAULT_CODE, UPLIFT_SOURCE, given_criteria, line_criteria, plain_criterion
+from moyai.case.line_code import make_of
 from moyai.case.schema_criteria import (
     OFF,
     GreatestAngle,
@@ -69,7 +70,7 @@ def criteria(model: Any, given: Any) -> Iterator[Criterion]:
         given,
         DEFAULT_CODE if moored else "",
         "",
-        [getattr(part, "catalogue", None) for line in moored for part in line.segments if not hasattr(part, "clump")],
+        [make_of(part) for line in moored for part in line.segments if not hasattr(part, "clump")],
     )
     if given.greatest_uplift is None and moored:
         yield plain_criterion("greatest_uplift", 0.0, UPLIFT_SOURCE)

@@ -8,6 +8,7 @@ from typing import Annotated, Any
 from pydantic import Discriminator, Field, Tag
 
 from moyai.case.criteria import given_criteria, line_criteria
+from moyai.case.line_code import make_of
 from moyai.case.schema_criteria import (
     OFF,
     GreatestForce,
@@ -61,6 +62,6 @@ def criteria(model: Any, given: Any) -> Iterator[Criterion]:
         CAGE_CODE if ropes else "",
         "dynamic" if "time" in model.analyses else "static",
         # a line of its own does not say what it is made of: the strictest factor
-        [None if own else getattr(rope, "catalogue", None) or "rope" for rope in ropes],
+        [None if own else make_of(rope) or "rope" for rope in ropes],
     )
     yield from given_criteria(given)

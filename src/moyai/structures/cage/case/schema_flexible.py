@@ -7,10 +7,12 @@ from typing import Annotated, ClassVar, Literal
 from pydantic import AfterValidator, Field
 
 from moyai.case.schema_types import (
+    COMPONENT,
     AddedMass,
     Block,
     Density,
     KeyGroups,
+    LineComponent,
     Mass,
     NonNegativeNumber,
     PositiveForce,
@@ -134,6 +136,7 @@ class RopeEntry(Block):
     """A rope or chain: from the catalogue, or by its own properties."""
 
     exactly_one: ClassVar[KeyGroups] = (("catalogue", "axial_stiffness"),)
+    at_most_one: ClassVar[KeyGroups] = (("catalogue", "component"),)
 
     catalogue: Annotated[str, Field(min_length=1)] | None = Field(
         default=None, description="Name in the catalogue of lines.", examples=["polyester"]
@@ -155,6 +158,7 @@ class RopeEntry(Block):
     added_mass_tangential: NonNegativeNumber | None = Field(
         default=None, description="Added mass along over the displaced mass, with EA. 0 when absent."
     )
+    component: LineComponent | None = Field(default=None, description=COMPONENT)
 
 
 class AnchorSegment(RopeEntry):

@@ -343,7 +343,7 @@ class Cycles(Block):
     exceedance: Literal["weibull", "pareto"] = Field(
         default="weibull", description="Law fitted to the snaps of an irregular sea. Default: weibull."
     )
-    hours: PositiveNumber = Field(
+    hours: Annotated[float, QuantityOf(quantities.HOURS, above=0.0)] = Field(
         default=3.0, description="Hours that the most probable largest snap is given for. Default: 3."
     )
 

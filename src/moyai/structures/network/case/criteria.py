@@ -8,6 +8,7 @@ from typing import Annotated, Any
 from pydantic import Discriminator, Field, Tag
 
 from moyai.case.criteria import DEFAULT_CODE, given_criteria, line_criteria
+from moyai.case.line_code import make_of
 from moyai.case.schema_criteria import (
     OFF,
     GreatestForce,
@@ -45,6 +46,6 @@ def criteria(model: Any, given: Any) -> Iterator[Criterion]:
         given,
         DEFAULT_CODE if strong and model.structure.lines else "",
         "dynamic" if "dynamic" in model.analyses else "quasi_static",
-        [getattr(kind, "catalogue", None) for kind in types],
+        [make_of(kind) for kind in types],
     )
     yield from given_criteria(given, {"greatest_anchor_load": "point_load"})

@@ -8,6 +8,7 @@ from typing import Annotated, Any, ClassVar, Literal
 from pydantic import AfterValidator, Discriminator, Field, Tag
 
 from moyai.case.schema_types import (
+    COMPONENT,
     AddedMass,
     Block,
     Duration,
@@ -15,6 +16,7 @@ from moyai.case.schema_types import (
     Heading,
     KeyGroups,
     Length,
+    LineComponent,
     Name,
     NonNegativeLength,
     NonNegativeNumber,
@@ -171,6 +173,7 @@ class OwnType(_Internal):
         default=False, description="Whether it carries compression instead of going slack. Default: no."
     )
     breaking_load: PositiveForce | None = Field(default=None, description="Breaking load; shows the utilisation.")
+    component: LineComponent | None = Field(default=None, description=COMPONENT)
 
 
 def _type_form(value: Any) -> str:

@@ -15,6 +15,7 @@ from moyai.case.criteria import (
     line_criteria,
     plain_criterion,
 )
+from moyai.case.line_code import make_of
 from moyai.case.schema_criteria import (
     OFF,
     FactorOfSafety,
@@ -120,7 +121,7 @@ def criteria(model: Any, given: Any) -> Iterator[Criterion]:
         given,
         DEFAULT_CODE if moored else "",
         "" if "time" in model.analyses else "quasi_static" if computed else "static",
-        [getattr(part, "catalogue", None) for line in moored for part in line.segments if not hasattr(part, "clump")],
+        [make_of(part) for line in moored for part in line.segments if not hasattr(part, "clump")],
     )
     asked, given_loads = given.connector_safety_factor, [one.breaking_load for one in model.structure.connectors]
     if asked is not None or (computed and any(given_loads)):
