@@ -57,7 +57,10 @@ def _pulls(rest: xr.Dataset, network: xr.Dataset, level: str, model: str) -> Ite
             band, settled = band_at_rest(rest, network, "point_load_of_mesh", condition, point=point)
             if not (value if band is None else band.high) > 0.0:
                 continue
-            words = f"horizontal {math.hypot(*load[:2]) / 1e3:.3g} kN, upwards {max(float(load[2]), 0.0) / 1e3:.3g} kN"
+            upwards = float(load[2])
+            words = f"horizontal {math.hypot(*load[:2]) / 1e3:.3g} kN, upwards {max(upwards, 0.0) / 1e3:.3g} kN"
+            if upwards < 0.0:
+                words = f"horizontal {math.hypot(*load[:2]) / 1e3:.3g} kN, downwards {-upwards / 1e3:.3g} kN"
             found = Headline(
                 "point_load", "largest pull on a fixed point at rest", value, "N",
                 ", ".join(filter(None, (point, condition, level))), model, band, detail=words, part=point,

@@ -419,6 +419,8 @@ def _anchor(groups: Mapping[str, xr.Dataset], peaks: list[_Peak]) -> list[Headli
                         for measure in ("size", "horizontal", "upwards")
                     )
                 said = f"horizontal {parts[0] / 1e3:.3g} kN, upwards {parts[1] / 1e3:.3g} kN, each at its own largest"
+                if not parts[1] > 0.0:
+                    said = f"horizontal {parts[0] / 1e3:.3g} kN at its largest, never upwards"
                 open_end, why = _left_open(groups, level, run, scatter)
                 chaos = one_seed_of_snaps(groups, level, run, scatter)
                 open_end, doubtful = "at least" if chaos else open_end, ""
