@@ -12,6 +12,9 @@ from moyai.core.arrays import Array
 from moyai.core.options import checks_words
 from moyai.floating.arrays import square_matrix
 
+#: Share of the pull of all lines at rest that their forces are smooth to
+_SMOOTH = 1e-10
+
 Status = Literal["converged", "not_converged", "interrupted"]
 
 
@@ -176,6 +179,7 @@ def mean_offset(
                 break
         else:
             break
-    # Tabulated or iterated line forces are smooth to their own tolerance only
-    status: Status = "converged" if measure <= max(tolerance, 1e-7) else "not_converged"
+    # Tabulated or iterated line forces are smooth to their own tolerance only, and a load may be less than that
+    smooth = _SMOOTH * float(np.linalg.norm(rest / scale)) / reference
+    status: Status = "converged" if measure <= max(tolerance, 1e-7, smooth) else "not_converged"
     return MeanOffset(position, measure, iterations, status)

@@ -17,6 +17,8 @@ from moyai.structures.cage.flexible.variables import described
 if TYPE_CHECKING:
     import xarray as xr
 
+#: Drag, over the largest tension, below which the balance is that of rounding
+_FELT = 1e-5
 #: Worst of all currents: name, and what it is the worst of
 _WORST = {
     "worst_volume_share": "volume_share",
@@ -149,7 +151,7 @@ def statics_dataset(
         add(
             volume_share=np.array([float(cage.volume(position)) / cage.rest_volume for cage in built.cages]),
             drag=split[:, :2], drag_along=split @ along, total_drag=total, pull=pull,
-            balance=missing / max(float(np.linalg.norm(split[:, :2].sum(axis=0))), 1e-9 * float(rest.tension.max())),
+            balance=missing / max(float(np.linalg.norm(split[:, :2].sum(axis=0))), _FELT * float(rest.tension.max())),
             residual=rest.residual,
             collar_place=np.stack([shape[0] for shape in shapes]),
             collar_ovality=np.array([shape[1] for shape in shapes]),
