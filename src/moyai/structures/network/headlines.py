@@ -407,15 +407,12 @@ def _anchor(groups: Mapping[str, xr.Dataset], peaks: list[_Peak]) -> list[Headli
                 if not math.isfinite(value):
                     continue
                 parts = [float(row["point_horizontal_load_maximum"]), float(row["point_upward_load_maximum"])]
-                scatter = scatter_of(summary, "point_load_maximum_of_realisation", run, point=point, measure="size")
+                each = "point_load_maximum_of_realisation"
+                scatter = scatter_of(summary, each, run, point=point, measure="size")
                 own, bound = _band_of_pull(groups, (level, run, point), value, most, scatter)
                 if scatter.size:
                     value, *parts = (
-                        float(
-                            scatter_of(
-                                summary, "point_load_maximum_of_realisation", run, point=point, measure=measure
-                            ).mean()
-                        )
+                        float(scatter_of(summary, each, run, point=point, measure=measure).mean())
                         for measure in ("size", "horizontal", "upwards")
                     )
                 said = f"horizontal {parts[0] / 1e3:.3g} kN, upwards {parts[1] / 1e3:.3g} kN, each at its own largest"
