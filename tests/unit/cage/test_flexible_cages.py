@@ -33,6 +33,7 @@ from moyai.structures.cage.flexible.loads import drag_split
 from moyai.structures.cage.flexible.model import CageMesh, FixedCollar, FlexibleCage
 from moyai.structures.cage.flexible.parts import bar_widths, enclosed_volume
 from moyai.structures.cage.flexible.problem import FlexibleSettings
+from moyai.structures.cage.flexible.sensitivity import coarser
 from moyai.structures.cage.flexible.time import run_cage, time_dataset
 from moyai.structures.cage.flexible.wake import flow_factors
 from moyai.structures.cage.rigid.waves import wave_of
@@ -483,3 +484,10 @@ def test_sinkers_between_knots_keep_the_symmetry_and_the_sum():
     assert hung.sum() == pytest.approx(8.0 * model.design.sinkers.mass)
     assert hung == pytest.approx(np.roll(hung, 3))
     assert set(built.sinkers) == set(rim[hung > 0.0])
+
+
+@pytest.mark.parametrize(
+    ("around", "sinkers", "coarse"), [(48, 16, 32), (32, 16, 16), (32, 1, 20), (48, 10, 32), (8, 1, 8)]
+)
+def test_the_coarser_mesh_has_a_knot_for_each_sinker_where_it_can(around: int, sinkers: int, coarse: int) -> None:
+    assert coarser(CageMesh(around, 6, 3, 0.5), sinkers).around == coarse

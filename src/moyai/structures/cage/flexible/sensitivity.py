@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from dataclasses import replace
 from typing import TYPE_CHECKING
 
@@ -44,9 +45,12 @@ NET_TENSION, NET_TENSION_IN_CURRENT = "highest tension of the net [N/m]", "tensi
 KINDS = ("anchor", "bridle", "frame", "buoy")
 
 
-def coarser(mesh: CageMesh) -> CageMesh:
-    """Return a mesh that is coarser by a third."""
-    around = max(8, 4 * round(mesh.around * 2.0 / 3.0 / 4.0))
+def coarser(mesh: CageMesh, sinkers: int = 1) -> CageMesh:
+    """Return a mesh that is coarser by a third, around up to a half where it then has a knot for each sinker."""
+    every = math.lcm(4, sinkers)
+    kept = [around for around in range(every, mesh.around, every) if 0.5 <= around / mesh.around <= 0.75]
+    around = min(kept, key=lambda count: abs(count - mesh.around * 2.0 / 3.0), default=0)
+    around = max(8, around or 4 * round(mesh.around * 2.0 / 3.0 / 4.0))
     return CageMesh(
         around, max(1, round(mesh.down * 2 / 3)), max(1, round(mesh.bottom * 2 / 3)), 1.5 * mesh.rope_length
     )
@@ -172,7 +176,7 @@ def sensitivity_dataset(
     found.append(largest_numbers(model, first))
     progress("sensitivity", 1, len(VARIANTS))
     found.append(largest_numbers(model, run_cage(model, rest, wave, short, step=0.5 * first.history.step)))
-    for number, other in enumerate((replace(model, mesh=coarser(model.mesh)), _damped(model))):
+    for number, other in enumerate((coarse_model(model), _damped(model))):
         progress("sensitivity", 2 + number, len(VARIANTS))
         start = solve_cage_equilibrium(other, build_cage(other), rest.current)
         found.append(largest_numbers(other, run_cage(other, start, wave, short)))
@@ -182,7 +186,8 @@ def sensitivity_dataset(
 
 def coarse_model(model: FlexibleCage) -> FlexibleCage:
     """Return a cage on a mesh that is coarser by a third."""
-    return replace(model, mesh=coarser(model.mesh))
+    sinkers = model.design.sinkers
+    return replace(model, mesh=coarser(model.mesh, 1 if sinkers is None else sinkers.count))
 
 
 def coarse_run(model: FlexibleCage, run: CageRun, settings: FlexibleSettings, progress: Progress = silent) -> CageRun:
