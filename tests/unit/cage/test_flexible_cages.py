@@ -474,18 +474,6 @@ def test_a_net_in_still_water_bears_what_hangs_on_its_width():
     assert rest.built.net_tension(rest.tension)[0] == pytest.approx(hung / around, rel=5e-3)
 
 
-def test_sinkers_between_knots_keep_the_symmetry_and_the_sum():
-    """Twelve knots for eight sinkers: a quarter turn changes nothing."""
-    model = flume(mesh=CageMesh(12, 3, 2, 0.5), weight=7.84, sinkers=8)
-    built = build_cage(model)
-    bare = build_cage(replace(model, design=replace(model.design, sinkers=None)))
-    rim = built.cages[0].wall[-1]
-    hung = built.network.nodes.mass[rim] - bare.network.nodes.mass[rim]
-    assert hung.sum() == pytest.approx(8.0 * model.design.sinkers.mass)
-    assert hung == pytest.approx(np.roll(hung, 3))
-    assert set(built.sinkers) == set(rim[hung > 0.0])
-
-
 @pytest.mark.parametrize(
     ("around", "sinkers", "coarse"), [(48, 16, 32), (32, 16, 16), (32, 1, 20), (48, 10, 32), (8, 1, 8)]
 )

@@ -216,21 +216,17 @@ def _band(upper: IntArray, lower: IntArray) -> IntArray:
 
 
 def _sinkers(work: _Assembly, model: FlexibleCage, cage: CageParts) -> list[int]:
-    """Hang the sinkers on the lower rim, one between two knots shared by both as near as it is; return their nodes."""
+    """Hang the sinkers on the lower rim; return their nodes."""
     sinkers = model.design.sinkers
     if sinkers is None:
         return []
     around = cage.wall.shape[1]
-    each = {key: getattr(sinkers, key) for key in ("mass", "volume", "drag_area", "added_mass")}
-    held = np.zeros(around)
-    for number in range(sinkers.count):
-        knot, beyond = divmod(number * around, sinkers.count)
-        held[knot] += 1.0 - beyond / sinkers.count
-        held[(knot + 1) % around] += beyond / sinkers.count
-    chosen = np.flatnonzero(held)
-    for knot in chosen:
-        work.attach(int(cage.wall[-1, knot]), **{key: held[knot] * value for key, value in each.items()})
-    return [int(cage.wall[-1, knot]) for knot in chosen]
+    chosen = [int(cage.wall[-1, round(k * around / sinkers.count) % around]) for k in range(sinkers.count)]
+    for node in chosen:
+        work.attach(
+            node, mass=sinkers.mass, volume=sinkers.volume, drag_area=sinkers.drag_area, added_mass=sinkers.added_mass
+        )
+    return chosen
 
 
 def _rope(
