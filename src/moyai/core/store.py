@@ -12,7 +12,6 @@ import numpy as np
 
 from moyai.core.errors import InputError
 from moyai.core.files import partial_file
-from moyai.core.netcdf_writer import can_write, write_tree
 from moyai.core.results import join_complex, split_complex
 
 if TYPE_CHECKING:
@@ -62,6 +61,8 @@ class DatasetStore:
     def put(self, key: str, dataset: xr.Dataset) -> None:
         """Keep a dataset; a folder that cannot be written keeps nothing and harms nothing."""
         import xarray as xr
+
+        from moyai.core.netcdf_writer import can_write, write_tree
 
         tree = xr.DataTree(split_complex(dataset))
         with suppress(InputError), partial_file(self.directory / f"{key}.nc", size=dataset.nbytes) as partial:
