@@ -27,6 +27,8 @@ LINEAR, FIELD, THREADS = 0.0, 1.0, 2.0
 _TRIES = 16
 _COS = np.cos(2.0 * np.pi / _TRIES * np.arange(_TRIES))
 _SIN = np.sin(2.0 * np.pi / _TRIES * np.arange(_TRIES))
+#: Tangent of half the way from one of them to the next.
+_REACH = math.tan(math.pi / _TRIES)
 
 
 @njit(cache=True, error_model="numpy")
@@ -63,12 +65,14 @@ def tensile_stress(C: Any, t: int, e11: float, e22: float, shear: float) -> tupl
                 value = along * along / (a0 + _COS[k] * (a1 + a2 * _COS[k]))
                 if value > best:
                     best, place = value, k
-        angle = 2.0 * math.pi / _TRIES * place
+        begin, beginning = _COS[place], _SIN[place]
         if best < 0.0:
             # a narrow fan of stretched directions between two tries
-            angle = math.atan2(turn, half)
-        c, s = math.cos(angle), math.sin(angle)
-        low, high = angle - 2.0 * math.pi / _TRIES, angle + 2.0 * math.pi / _TRIES
+            size = math.sqrt(half * half + turn * turn)
+            begin, beginning = half / size, turn / size
+        c, s = begin, beginning
+        # the tangent of half the way on from there turns the direction without sines
+        way, low, high = 0.0, -_REACH, _REACH
         for _ in range(30):
             along, rise, bend = mean + half * c + turn * s, turn * c - half * s, -half * c - turn * s
             soft, softer = a0 + c * (a1 + a2 * c), -s * (a1 + 2.0 * a2 * c)
@@ -77,19 +81,21 @@ def tensile_stress(C: Any, t: int, e11: float, e22: float, shear: float) -> tupl
             value = 2.0 * soft * rise - softer * along
             slope = softer * rise + 2.0 * soft * bend - softest * along
             if value > 0.0:
-                low = angle
+                low = way
             else:
-                high = angle
+                high = way
             step = -value / slope if slope < 0.0 else 0.0
-            new = angle + step
             if slope < 0.0 and abs(step) < 1e-13:
                 break
+            new = way + 0.5 * (1.0 + way * way) * step
             if slope >= 0.0 or not low < new < high:
                 new = 0.5 * (low + high)
-            if abs(new - angle) < 1e-13:
+            if abs(new - way) < 1e-13:
                 break
-            angle = new
-            c, s = math.cos(angle), math.sin(angle)
+            way = new
+            per = 1.0 / (1.0 + way * way)
+            cosine, sine = (1.0 - way * way) * per, 2.0 * way * per
+            c, s = begin * cosine - beginning * sine, beginning * cosine + begin * sine
     along = mean + half * c + turn * s
     if along <= 0.0:
         return 0.0, 0.0, 0.0, 0.0, 0
@@ -261,54 +267,44 @@ def sheet_loads(
     own mass of each node and over its mass along a horizontal axis [1/kg], and that axis. Returns the fastest rate at
     which drag damps a node [1/s].
     """
-    p, n, u = np.empty(6), np.empty(3), np.empty(3)
-    fastest = 0.0
+    fastest, up = 0.0, 2 * axis
     for t in range(triangles.shape[0]):
         i, j, k = triangles[t, 0] * node, triangles[t, 1] * node, triangles[t, 2] * node
-        wet = wet_share(
-            P[p0 + i + 2 * axis] - W[w0 + i + 6 * axis], P[p0 + j + 2 * axis] - W[w0 + j + 6 * axis],
-            P[p0 + k + 2 * axis] - W[w0 + k + 6 * axis],
-        )  # fmt: skip
+        x, y, z = P[p0 + i], P[p0 + i + axis], P[p0 + i + up]
+        one, two = P[p0 + j + up], P[p0 + k + up]
+        wet = wet_share(z - W[w0 + i + 3 * up], one - W[w0 + j + 3 * up], two - W[w0 + k + 3 * up])
         if wet == 0.0:
             continue
-        for a in range(3):
-            step = p0 + a * axis
-            p[a], p[3 + a] = P[j + step] - P[i + step], P[k + step] - P[i + step]
-        n[0], n[1] = p[1] * p[5] - p[2] * p[4], p[2] * p[3] - p[0] * p[5]
-        n[2] = p[0] * p[4] - p[1] * p[3]
-        size = math.sqrt(n[0] * n[0] + n[1] * n[1] + n[2] * n[2])
+        px, py, pz = P[p0 + j] - x, P[p0 + j + axis] - y, one - z
+        rx, ry, rz = P[p0 + k] - x, P[p0 + k + axis] - y, two - z
+        nx, ny, nz = py * rz - pz * ry, pz * rx - px * rz, px * ry - py * rx
+        size = math.sqrt(nx * nx + ny * ny + nz * nz)
         per = 1.0 / size if size > 0.0 else 0.0
-        across, skin = wet * C[t, ACROSS] * size / 6.0, wet * C[t, SKIN] * size / 6.0
+        nx, ny, nz = nx * per, ny * per, nz * per
+        across, skin, share = wet * C[t, ACROSS] * size / 6.0, wet * C[t, SKIN] * size / 6.0, C[t, SHARE]
+        fx, fy, fz = C[t, FACE], C[t, FACE + 1], C[t, FACE + 2]
+        taken, displaced, lift = wet * C[t, ADDED] * C[t, AREA] / 3.0, wet * C[t, DISPLACED], wet * C[t, LIFT]
         for corner in range(3):
             point = triangles[t, corner]
             base = point * node
-            along = 0.0
-            for a in range(3):
-                step = base + a * axis
-                u[a] = C[t, SHARE] * W[w0 + step] - V[v0 + step]
-                along += u[a] * n[a] * per
-            slide = 0.0
-            for a in range(3):
-                u[a] -= along * n[a] * per
-                slide += u[a] * u[a]
-            hold, slip_drag = across * abs(along), skin * math.sqrt(slide)
-            facing = (n[0] * light[2, point] + n[1] * light[3, point]) * per
+            at, to = w0 + base, f0 + base
+            ux, uy = share * W[at] - V[v0 + base], share * W[at + axis] - V[v0 + base + axis]
+            uz = share * W[at + up] - V[v0 + base + up]
+            along = ux * nx + uy * ny + uz * nz
+            ux, uy, uz = ux - along * nx, uy - along * ny, uz - along * nz
+            hold, slip_drag = across * abs(along), skin * math.sqrt(ux * ux + uy * uy + uz * uz)
+            facing = nx * light[2, point] + ny * light[3, point]
             part = light[0, point] + (light[1, point] - light[0, point]) * facing * facing
             rate = 2.0 * max(hold * part, slip_drag * light[0, point])
             fastest = max(fastest, rate)
             quick = ahead * rate
             held = 1.0 / (1.0 + 0.4 * quick * quick * quick * quick)
-            rise = 0.0
-            for a in range(3):
-                rise += W[w0 + base + (3 + a) * axis] * C[t, FACE + a]
-            rise *= wet * C[t, ADDED] * C[t, AREA] / 3.0
-            push = held * hold * along
-            whole = wet * C[t, DISPLACED]
-            for a in range(3):
-                step = base + a * axis
-                F[f0 + step] += push * n[a] * per + held * slip_drag * u[a]
-                F[f0 + step] += rise * C[t, FACE + a] + whole * W[w0 + step + 3 * axis]
-            F[f0 + base + 2 * axis] += wet * C[t, LIFT]
+            ax, ay, az = W[at + 3 * axis], W[at + 4 * axis], W[at + 5 * axis]
+            rise = taken * (ax * fx + ay * fy + az * fz)
+            push, pull = held * hold * along, held * slip_drag
+            F[to] += push * nx + pull * ux + rise * fx + displaced * ax
+            F[to + axis] += push * ny + pull * uy + rise * fy + displaced * ay
+            F[to + up] += push * nz + pull * uz + rise * fz + displaced * az + lift
     return fastest
 
 

@@ -7,7 +7,6 @@ value there and no interpolation enters.
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator
 from dataclasses import dataclass
 from typing import Literal, Protocol
 
@@ -15,13 +14,12 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from moyai.core.arrays import Array, ComplexArray
-from moyai.core.compiled import njit
 from moyai.core.errors import InputError
 from moyai.core.options import checks_words
 from moyai.floating.arrays import finite, positive
 from moyai.floating.coefficients import Hydrodynamics
+from moyai.floating.sums import real_sum
 from moyai.sea.components import WaveComponents
-from moyai.sea.time_sum import sum_in_window, window_pays
 
 STEPS_PER_PERIOD = 40
 """Steps in the mean period of the waves: a phase error of 5e-6, extremes between rows below 0.3 %."""
@@ -368,111 +366,18 @@ class IrregularForcing:
         tuple of ndarray (count, m) and (count,)
             Forces of the modes [N, N m] and surface elevation at x = 0 [m].
         """
-        modes = self.excitation_force.shape[1]
-        rows = [self.amplitude[:, None], self.amplitude[:, None] * self.excitation_force]
-        slow = self.drift is not None and self.drift_law in ("newman", "newman_product")
-        if slow:
-            assert self.drift is not None
-            share = self.drift if self.drift_law == "newman" else np.sqrt(np.abs(self.drift))
-            rows.append(self.amplitude[:, None] * share)
-        columns = sum_by_columns(self.omega, np.concatenate(rows, axis=1), step, count)
-        surface = next(columns)
-        elevation, force = surface.real.copy(), np.empty((count, modes))
-        for mode in range(modes):
-            force[:, mode] = next(columns).real
-        if slow:
-            assert self.drift is not None
-            for mode, column in enumerate(columns):
-                if self.drift_law == "newman":
-                    force[:, mode] += (column * surface.conj()).real
-                else:
-                    force[:, mode] += np.sign(np.sum(self.drift[:, mode])) * np.abs(column) ** 2
-        elif self.drift_law == "ramped":
+        surface = self.amplitude[:, None]
+        products = None
+        if self.drift is not None and self.drift_law == "newman":
+            products = surface * self.drift, surface
+        elif self.drift is not None and self.drift_law == "newman_product":
+            share = surface * np.sqrt(np.abs(self.drift))
+            products = np.sign(np.sum(self.drift, axis=0)) * share, share
+        elevation = real_sum(self.omega, surface, step, count)[:, 0]
+        force = real_sum(self.omega, surface * self.excitation_force, step, count, products)
+        if self.drift_law == "ramped":
             force += self.mean_drift()
         shape = cosine_ramp(step * np.arange(count), self.ramp)
         force += np.asarray(self.steady, dtype=float)
         force *= shape[:, None]
         return force, shape * elevation
-
-
-def real_sum(omega: Array, amplitude: ComplexArray, step: float, count: int, shape: Array) -> Array:
-    """Return the real parts of :func:`sum_by_columns` times a shape in time (count,); shape (count, c).
-
-    Parameters
-    ----------
-    omega, amplitude, step, count
-        As there.
-    shape : ndarray (count,)
-    """
-    out = np.empty((count, amplitude.shape[1]))
-    for number, column in enumerate(sum_by_columns(omega, amplitude, step, count)):
-        np.multiply(shape, column.real, out=out[:, number])
-    return out
-
-
-def sum_by_columns(omega: Array, amplitude: ComplexArray, step: float, count: int) -> Iterator[ComplexArray]:
-    """Yield ``sum_i amplitude_i exp(-i omega_i t)`` (count,) at ``t = step * arange(count)`` column by column.
-
-    A long record of all columns would fill the memory.
-
-    Parameters
-    ----------
-    omega : ndarray (k,)
-        [rad/s].
-    amplitude : ndarray (k, c)
-    step : float
-        [s].
-    count : int
-
-    Notes
-    -----
-    By one fast Fourier transform a column when all frequencies are whole multiples of 2 pi / (n step) for a whole n;
-    else by a compiled sum whose phase factors are advanced by multiplication and renewed every 256 steps.
-    """
-    length = _transform_length(omega, step)
-    if length == 0:
-        yield from _direct_sum(omega, np.ascontiguousarray(amplitude), step, count).T
-        return
-    bins = np.rint(omega * step * length / (2.0 * math.pi)).astype(int)
-    if window_pays(bins, count, length):
-        yield from sum_in_window(bins, amplitude.T, count, length)
-        return
-    from scipy.fft import fft
-
-    for column in amplitude.T:
-        spectrum = np.zeros(length, dtype=np.complex128)
-        np.add.at(spectrum, bins, column)
-        yield np.resize(fft(spectrum, overwrite_x=True), count)
-
-
-def _transform_length(omega: Array, step: float) -> int:
-    """Return the transform length that holds all frequencies exactly, 0 when there is none of use."""
-    unique = np.unique(omega)
-    base = float(unique[0]) if len(unique) == 1 else float(np.min(np.diff(unique)))
-    multiples = np.rint(omega / base)
-    if np.max(multiples) > 5e7 or np.max(np.abs(omega / base - multiples)) > 1e-6:
-        return 0
-    base = float(np.sum(omega) / np.sum(multiples))
-    length = round(2.0 * math.pi / (base * step))
-    if length < 2 or length > 50_000_000 or np.max(multiples) >= length:
-        return 0
-    phase_error = np.max(np.abs(omega * step * length / (2.0 * math.pi) - multiples))
-    return length if phase_error < 1e-6 else 0
-
-
-@njit(cache=True, error_model="numpy")
-def _direct_sum(omega: Array, amplitude: ComplexArray, step: float, count: int) -> ComplexArray:
-    components, columns = amplitude.shape
-    result = np.zeros((count, columns), dtype=np.complex128)
-    factor = np.exp(-1j * omega * step)
-    turning = np.empty(components, dtype=np.complex128)
-    for start in range(0, count, 256):
-        for i in range(components):
-            turning[i] = np.exp(-1j * omega[i] * step * start)
-        for n in range(start, min(start + 256, count)):
-            for i in range(components):
-                phase = turning[i]
-                for c in range(columns):
-                    result[n, c] += amplitude[i, c] * phase
-                turning[i] = phase * factor[i]
-    return result

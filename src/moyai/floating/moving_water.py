@@ -7,7 +7,8 @@ from dataclasses import dataclass
 import numpy as np
 
 from moyai.core.arrays import Array, ComplexArray
-from moyai.floating.forcing import Forcing, cosine_ramp, real_sum
+from moyai.floating.forcing import Forcing, cosine_ramp
+from moyai.floating.sums import real_sum
 
 
 @dataclass(frozen=True)
@@ -43,5 +44,5 @@ class MovingWater:
         """Return forces with the motion of the water in further columns (count, m + w), and the elevation."""
         force, elevation = self.forcing.sample(step, count)
         shape = cosine_ramp(step * np.arange(count), self.ramp)
-        moved = real_sum(self.omega, self.amplitude[:, None] * self.water, step, count, shape)
-        return np.concatenate([force, moved], axis=1), elevation
+        moved = real_sum(self.omega, self.amplitude[:, None] * self.water, step, count)
+        return np.concatenate([force, shape[:, None] * moved], axis=1), elevation

@@ -11,10 +11,11 @@ from scipy.linalg import expm
 
 from moyai.floating.coefficients import Hydrodynamics
 from moyai.floating.damping import LinearDamping, QuadraticDamping
-from moyai.floating.forcing import CalmWater, IrregularForcing, RegularForcing, cosine_ramp, sum_by_columns
+from moyai.floating.forcing import CalmWater, IrregularForcing, RegularForcing, cosine_ramp
 from moyai.floating.frequency import solve_motions
 from moyai.floating.irregular import linearised_in_sea
 from moyai.floating.memory import ConvolutionMemory, StateSpaceMemory
+from moyai.floating.sums import complex_sum, real_sum
 from moyai.floating.time import CumminsModel, choose_time_step, exponential_weights, simulate
 from moyai.series.harmonics import fit_last_periods
 
@@ -204,10 +205,29 @@ def test_sum_of_components_by_transform_and_directly() -> None:
     amplitude = rng.normal(size=(60, 2)) + 1j * rng.normal(size=(60, 2))
     time = step * np.arange(5000)
     exact = np.exp(-1j * np.outer(time, omega)) @ amplitude
-    assert np.max(np.abs(np.stack(list(sum_by_columns(omega, amplitude, step, 5000)), axis=1) - exact)) < 1e-8
+    assert np.max(np.abs(complex_sum(omega, amplitude, step, 5000) - exact)) < 1e-8
     scattered = np.sort(rng.uniform(0.3, 3.0, 60))
     exact = np.exp(-1j * np.outer(time, scattered)) @ amplitude
-    assert np.max(np.abs(np.stack(list(sum_by_columns(scattered, amplitude, step, 5000)), axis=1) - exact)) < 1e-8
+    assert np.max(np.abs(complex_sum(scattered, amplitude, step, 5000) - exact)) < 1e-8
+
+
+@pytest.mark.parametrize(("grid", "count"), [(4000, 5000), (4000, 3700), (400_000, 900), (610, 700), (None, 500)])
+def test_real_sum_with_slow_products_is_that_of_the_components(grid: int | None, count: int) -> None:
+    """By one transform, in a window, near the highest frequency of the grid, and directly."""
+    rng = np.random.default_rng(5)
+    step = 0.05
+    omega = np.sort(rng.uniform(0.3, 3.0, 60))
+    if grid is not None:
+        # several components on a frequency, as in a sea of many headings
+        omega = 2 * np.pi / (grid * step) * rng.choice(np.arange(5, 305), 60)
+    drawn = rng.normal(size=(60, 5, 2)) @ [1.0, 1j]
+    amplitude, first, second = drawn[:, :2], drawn[:, 2:4], drawn[:, 4:]
+    waves = np.exp(-1j * np.outer(step * np.arange(count), omega))
+    exact = (waves @ amplitude + (waves @ first) * (waves @ second).conj()).real
+    found = real_sum(omega, amplitude, step, count, (first, second))
+    assert np.max(np.abs(found - exact)) < 1e-9 * np.max(np.abs(exact))
+    plain = real_sum(omega, amplitude, step, count)
+    assert np.max(np.abs(plain - (waves @ amplitude).real)) < 1e-9 * np.max(np.abs(exact))
 
 
 @pytest.mark.parametrize("law", ["newman", "newman_product"])

@@ -11,7 +11,8 @@ import numpy as np
 
 from moyai.core.arrays import Array
 from moyai.core.progress import Progress, silent
-from moyai.floating.forcing import IrregularForcing, cosine_ramp, real_sum
+from moyai.floating.forcing import IrregularForcing, cosine_ramp
+from moyai.floating.sums import real_sum
 from moyai.sea.components import WaveComponents
 from moyai.sea.dispersion import wave_number
 from moyai.sea.irregular import realisation_seed, synthesise
@@ -257,7 +258,8 @@ def irregular_run(
     water_motion = None
     if model.eddies is not None:
         moving = model.eddies.water_motion(waves.omega, waves.heading, at.water.depth, at.water.gravity)
-        water_motion = real_sum(waves.omega, forcing.amplitude[:, None] * moving, step, count, shape)
+        water_motion = real_sum(waves.omega, forcing.amplitude[:, None] * moving, step, count)
+        water_motion *= shape[:, None]
     words = f", {at.name}, {sea.name}, seed {seed}"
     run = model.run(load, step, water=water_motion, progress=progress, name=words)
     return SeaRun(run, waves, elevation[: len(run.time)], ramp, ramp, peak, seed, resolved)
