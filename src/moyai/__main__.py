@@ -2,7 +2,7 @@
 
 import sys
 
-from moyai.cli.interrupts import listen
+from moyai.core.interrupts import ignore, listen
 
 
 def main() -> None:
@@ -14,6 +14,8 @@ def main() -> None:
         run()
     except KeyboardInterrupt:
         sys.exit("interrupted")
+    finally:
+        ignore()
 
 
 if __name__ == "__main__":

@@ -112,7 +112,7 @@ def _run(order: Order, run: Run, listen: Any) -> tuple[str, str, str]:
     from moyai.case.yaml_reader import parse_yaml
     from moyai.core.compile_ahead import compiling_ahead
     from moyai.core.files import write_whole
-    from moyai.core.run_folder import alone_in, keeping_results, put_in_place, staged_outputs
+    from moyai.core.run_folder import RESULTS, alone_in, keeping_results, put_in_place, staged_outputs
     from moyai.report.writer import compose_document, write_report
 
     document = parse_yaml(order.text, order.file.name)
@@ -121,10 +121,10 @@ def _run(order: Order, run: Run, listen: Any) -> tuple[str, str, str]:
     with compiling_ahead(case.kind), alone_in(order.folder), staged_outputs(order.folder) as staged:
         write_whole(order.folder / "case.yaml", order.text.encode("utf-8"))
         result = run(case, listen, keep=order.folder / "coefficients")
-        files = [result.write(staged / "results.nc")]
         with keeping_results(staged, order.folder):
+            files = [result.write(staged / RESULTS)]
             files += write_report(result, staged, document=compose_document(result))
-        files = put_in_place(staged, order.folder, files)
+            files = put_in_place(staged, order.folder, files)
     return result.status, result.message, result.verdict.message
 
 

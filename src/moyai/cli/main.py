@@ -43,7 +43,6 @@ from moyai.cli.console import (
 from moyai.cli.convert import Depth, Duration, Motion, case_of_deck, convert
 from moyai.cli.fit import fit
 from moyai.cli.help_pages import SpokenGroup
-from moyai.cli.interrupts import held_back, listen
 from moyai.cli.measuring import measure
 from moyai.cli.query import query
 from moyai.cli.report import Language, ReportCommand, Units
@@ -52,6 +51,7 @@ from moyai.cli.reproduce import reproduce
 from moyai.cli.scale import scale
 from moyai.cli.study import study
 from moyai.core.errors import Fault
+from moyai.core.interrupts import held_back, listen
 from moyai.core.version import VERSION
 from moyai.core.wording import counted
 from moyai.language import said, speak
@@ -254,7 +254,7 @@ def run(
     with guard(as_json, language):
         from moyai.case.reader import load_case
         from moyai.cli.runner import run as run_case
-        from moyai.core.run_folder import alone_in, prepare_output, put_in_place, staged_outputs
+        from moyai.core.run_folder import alone_in, prepare_output, staged_outputs
         from moyai.report.systems import require_system
 
         started = time.perf_counter()
@@ -271,7 +271,6 @@ def run(
                 count = len(case.warnings)
                 if count:
                     tell(f"{counted(count, 'warning')} on the case, see below")
-            document = None
             with alone_in(folder), staged_outputs(folder) as staged:
                 with progress_bars(quiet) as progress:
                     result = run_case(case, progress, keep=folder / "coefficients")
@@ -279,14 +278,9 @@ def run(
                     result = result.shown_in(units)
                 if (asked := language or Spoken.language) is not None:
                     result = result.said_in(asked)
-                with held_back():
-                    files = [result.write(staged / "results.nc")]
-                if report:
-                    document, pages = _kept_and_reported(
-                        result, staged, folder, others, pdf=pdf, quiet=quiet, as_json=as_json
-                    )
-                    files += pages
-                files = put_in_place(staged, folder, files)
+                document, files = _written(
+                    result, staged, folder, others, report=report, pdf=pdf, quiet=quiet, as_json=as_json
+                )
         if document is not None and getattr(case.model, "measured", None):
             from moyai.report.overlay import misplaced_points
 
@@ -336,19 +330,31 @@ def _compiling(kind: str, quiet: bool) -> Iterator[None]:
         yield
 
 
-def _kept_and_reported(
-    result: Result, staged: Path, folder: Path, others: tuple[Any, ...], *, pdf: bool, quiet: bool, as_json: bool
-) -> tuple[Document, list[Path]]:
-    """Write the report as :func:`_report` does; results stay where it is interrupted."""
-    from moyai.core.run_folder import keeping_results
+def _written(
+    result: Result, staged: Path, folder: Path, others: tuple[Any, ...], *, report: bool, pdf: bool, quiet: bool,
+    as_json: bool,
+) -> tuple[Document | None, list[Path]]:  # fmt: skip
+    """Write results and report, and put them in place; results that are complete stay where it is interrupted."""
+    from moyai.core.run_folder import RESULTS, keeping_results, put_in_place
 
+    document = None
     try:
         with keeping_results(staged, folder):
-            return _report(result, staged, others, pdf=pdf, quiet=quiet)
+            with held_back():
+                files = [result.write(staged / RESULTS)]
+            if report:
+                document, pages = _report(result, staged, others, pdf=pdf, quiet=quiet)
+                files += pages
+            files = put_in_place(staged, folder, files)
     except KeyboardInterrupt:
-        place = folder / "results.nc"
-        fault = Fault(f"the report was interrupted; {place} is complete", remedy=f"'moyai report {place}' writes it")
+        place = folder / RESULTS
+        fault = Fault(f"interrupted while results were written; {place} is complete")
+        if report:
+            fault = Fault(
+                f"the report was interrupted; {place} is complete", remedy=f"'moyai report {place}' writes it"
+            )
         stop([fault], FAILED, as_json=as_json)
+    return document, files
 
 
 def _report(

@@ -16,10 +16,12 @@ from contextlib import contextmanager, suppress
 from pathlib import Path
 
 from moyai.core.errors import InputError
+from moyai.core.interrupts import held_back
 
 STAGED = ".run.partial"
+RESULTS = "results.nc"
 _LEFT_BEHIND = re.compile(r".+\.[a-z0-9_]{8}\.partial")
-_OUTPUTS = ("report.html", "report.pdf", "report.xlsx", "report_tables", "results.nc")
+_OUTPUTS = ("report.html", "report.pdf", "report.xlsx", "report_tables", RESULTS)
 """What a run writes, in the order in which an earlier one's is removed; it is put in place the other way round."""
 
 
@@ -127,30 +129,34 @@ def put_in_place(staged: Path, folder: Path, files: Sequence[Path]) -> list[Path
     files : sequence of Path
         Files in ``staged``.
     """
-    for name in _OUTPUTS[:-1]:
-        _remove(folder / name)
-    for name in reversed(_OUTPUTS):
-        if (staged / name).exists():
-            os.replace(staged / name, folder / name)
+    with held_back():
+        for name in _OUTPUTS[:-1]:
+            _remove(folder / name)
+        for name in reversed(_OUTPUTS):
+            if (staged / name).exists():
+                os.replace(staged / name, folder / name)
     return [folder / path.relative_to(staged) for path in files]
 
 
 @contextmanager
 def keeping_results(staged: Path, folder: Path) -> Iterator[None]:
-    """Put results in place alone where the block that writes their report does not come to its end.
+    """Put results in place alone where the block that writes them and their report does not come to its end.
 
     Parameters
     ----------
     staged : Path
-        From :func:`staged_outputs`, with results that are complete.
+        From :func:`staged_outputs`.
     folder : Path
     """
     try:
         yield
     except BaseException:
-        for name in _OUTPUTS[:-1]:
-            _remove(staged / name)
-        put_in_place(staged, folder, ())
+        # a second Ctrl-C waits
+        with held_back():
+            if (staged / RESULTS).exists():
+                for name in _OUTPUTS[:-1]:
+                    _remove(staged / name)
+                put_in_place(staged, folder, ())
         raise
 
 

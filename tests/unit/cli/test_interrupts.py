@@ -93,7 +93,7 @@ def test_an_interrupt_waits_for_an_import(tmp_path):
     )
     program = (
         "import signal, time\n"
-        "from moyai.cli.interrupts import interrupt\n"
+        "from moyai.core.interrupts import interrupt\n"
         "signal.signal(signal.SIGINT, interrupt)\n"
         "try:\n"
         "    import half\n"
@@ -103,3 +103,64 @@ def test_an_interrupt_waits_for_an_import(tmp_path):
     )
     done = subprocess.run([sys.executable, "-c", program], capture_output=True, text=True, cwd=tmp_path, timeout=60.0)
     assert done.stdout.strip() == "complete", done.stderr
+
+
+@pytest.mark.skipif(sys.platform == "win32", reason="signals to oneself differ there")
+def test_an_interrupt_waits_for_an_object_that_is_given_up():
+    """Python drops what is raised there."""
+    program = (
+        "import os, signal, time\n"
+        "from moyai.core.interrupts import interrupt\n"
+        "signal.signal(signal.SIGINT, interrupt)\n"
+        "class Given:\n"
+        "    def __del__(self):\n"
+        "        os.kill(os.getpid(), signal.SIGINT)\n"
+        "        time.sleep(0.1)\n"
+        "try:\n"
+        "    one = Given()\n"
+        "    del one\n"
+        "    time.sleep(20.0)\n"
+        "except KeyboardInterrupt:\n"
+        "    print('heard')\n"
+    )
+    done = subprocess.run([sys.executable, "-c", program], capture_output=True, text=True, timeout=60.0)
+    assert done.stdout.strip() == "heard" and not done.stderr, done.stderr
+
+
+@pytest.mark.skipif(sys.platform == "win32", reason="signals to oneself differ there")
+@pytest.mark.parametrize("when", ["results", "report", "twice"])
+def test_results_stay_whenever_the_writing_is_interrupted(tmp_path, when):
+    """A second Ctrl-C while the first is answered changes nothing."""
+    folder = tmp_path / "out"
+    folder.mkdir()
+    (folder / "results.nc").write_text("old", encoding="utf-8")
+    (folder / "report.html").write_text("old", encoding="utf-8")
+    program = (
+        "import os, signal, sys\n"
+        "from pathlib import Path\n"
+        "from moyai.core import run_folder as it\n"
+        "from moyai.core.interrupts import held_back, interrupt\n"
+        "signal.signal(signal.SIGINT, interrupt)\n"
+        "folder, when = Path(sys.argv[1]), sys.argv[2]\n"
+        "call = lambda: os.kill(os.getpid(), signal.SIGINT)\n"
+        "removed = it._remove\n"
+        "try:\n"
+        "    with it.staged_outputs(folder) as staged, it.keeping_results(staged, folder):\n"
+        "        with held_back():\n"
+        "            if when == 'results':\n"
+        "                call()\n"
+        "            (staged / 'results.nc').write_text('new', encoding='utf-8')\n"
+        "        (staged / 'report.html').write_text('half', encoding='utf-8')\n"
+        "        if when == 'twice':\n"
+        "            it._remove = lambda path: (call(), removed(path))\n"
+        "        call()\n"
+        "        import time; time.sleep(5.0)\n"
+        "except KeyboardInterrupt:\n"
+        "    print('heard')\n"
+    )
+    done = subprocess.run(
+        [sys.executable, "-c", program, str(folder), when], capture_output=True, text=True, timeout=60.0
+    )
+    assert done.stdout.strip().startswith("heard"), done.stderr
+    assert (folder / "results.nc").read_text(encoding="utf-8") == "new"
+    assert not (folder / "report.html").exists()

@@ -1,6 +1,7 @@
-"""Ctrl-C after an import, or after results are written, where it comes within.
+"""Ctrl-C a little later where it would do harm: in an import, while results are written, where nobody would hear it.
 
-A module that is left half loaded spoils whatever asks for it afterwards.
+A module that is left half loaded spoils whatever asks for it afterwards. What is raised in a call back from machine
+code, or while an object is given up, is reported and dropped.
 """
 
 from __future__ import annotations
@@ -8,6 +9,7 @@ from __future__ import annotations
 import signal
 import threading
 import time
+import weakref
 from collections.abc import Iterator
 from contextlib import contextmanager
 from types import FrameType
@@ -25,11 +27,11 @@ class _Interrupts:
 @contextmanager
 def held_back() -> Iterator[None]:
     """Hold interrupts back until the block ends."""
-    _Interrupts.held_back = True
+    before, _Interrupts.held_back = _Interrupts.held_back, True
     try:
         yield
     finally:
-        _Interrupts.held_back = False
+        _Interrupts.held_back = before
 
 
 def listen() -> None:
@@ -40,8 +42,15 @@ def listen() -> None:
         signal.signal(signal.SIGINT, interrupt)
 
 
+def ignore() -> None:
+    """Hear no more: what comes while the program ends changes nothing of what it did."""
+    for number in (signal.SIGINT, signal.SIGTERM):
+        if signal.getsignal(number) is interrupt:
+            signal.signal(number, signal.SIG_IGN)
+
+
 def interrupt(number: int, frame: FrameType | None) -> None:
-    """Raise KeyboardInterrupt, after the import that is going on or the block of :func:`held_back`.
+    """Raise KeyboardInterrupt, after the import or call back that is going on or the block of :func:`held_back`.
 
     Parameters
     ----------
@@ -55,7 +64,7 @@ def interrupt(number: int, frame: FrameType | None) -> None:
     KeyboardInterrupt
     """
     now = time.monotonic()
-    if (_Interrupts.held_back or _importing(frame)) and now - (_Interrupts.since or now) < _PATIENCE:
+    if (_Interrupts.held_back or _delicate(frame)) and now - (_Interrupts.since or now) < _PATIENCE:
         _Interrupts.since = _Interrupts.since or now
         again = threading.Timer(_AGAIN, _send, (number,))
         again.daemon = True
@@ -65,9 +74,11 @@ def interrupt(number: int, frame: FrameType | None) -> None:
     raise KeyboardInterrupt
 
 
-def _importing(frame: FrameType | None) -> bool:
+def _delicate(frame: FrameType | None) -> bool:
+    """Whether a frame or one that called it imports, is called by machine code of llvmlite, or gives up an object."""
     while frame is not None:
-        if frame.f_code.co_filename.startswith("<frozen importlib"):
+        file, name = frame.f_code.co_filename, frame.f_code.co_name
+        if file.startswith("<frozen importlib") or "llvmlite" in file or name == "__del__" or file == weakref.__file__:
             return True
         frame = frame.f_back
     return False
