@@ -127,7 +127,8 @@ class _Load:
         if how == "dynamic":
             return SPAN
         what = how.rpartition(" ")[2]
-        return STATICS if what == "steady" else f"{STATICS} with {model_of(self.words(f'{what}_source'))}"
+        other = "" if what == "steady" else model_of(self.words(f"{what}_source"))
+        return f"{STATICS} with {other}" if other else STATICS
 
     @property
     def source(self) -> str:

@@ -154,7 +154,8 @@ def upright_in(unit: LevelCurtain, own: float) -> float:
     if straight_share(unit, own) >= STRAIGHT:
         return own
     low, high = 0.0, own
-    while high - low > 0.01 * own:
+    # to a thousandth of itself, so that it is the same in every stronger current
+    while high - low > max(1e-3 * high, 1e-6 * own):
         middle = 0.5 * (low + high)
         low, high = (middle, high) if straight_share(unit, middle) >= STRAIGHT else (low, middle)
     return low

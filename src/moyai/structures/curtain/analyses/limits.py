@@ -215,7 +215,7 @@ class CountedLimits:
     def loads_in(self, speed: float) -> SeaLoads:
         """Return the loads that count in a current [m/s]."""
         role = self.role(speed) if self.with_plate else "out of range"
-        return replace(self.loads, upright=role == "governs") if role in ("governs", "bound") else self.sure
+        return self.loads if role in ("governs", "bound") else self.sure
 
     def speed(self) -> tuple[Limit, Bound]:
         """Return the largest current without waves, and whether it is a bound."""
@@ -261,7 +261,6 @@ class CountedLimits:
     def _height(self, loads: SeaLoads, speed: float) -> Limit:
         unit, highest = self.unit, self.settings.limits.highest_height
         snapping = loads.snaps is not None
-        loads = replace(loads, upright=snapping and self.role(speed) == "governs")
         return height_limit(
             unit.hanging, unit.site, unit.requirements, loads, speed=speed, highest=highest, first_only=snapping
         )

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from operator import attrgetter
 from types import MappingProxyType
 from typing import TYPE_CHECKING
@@ -99,8 +99,7 @@ def loads_dataset(
     """
     statics = unit.statics if unit.surface_speed > 0.0 else None
     roles = roles or hierarchy(unit, settings)
-    upright = role_of(roles, CYCLES) == "governs"
-    sources, notices = _wave_sources(unit, settings, waves, statics, oscillator, proportions, curve, upright=upright)
+    sources, notices = _wave_sources(unit, settings, waves, statics, oscillator, proportions, curve)
     force, most = _line_force(unit)
     pretension = unit.hanging.pretension
     ends = (1.0, 1.0) if answer is None else answer.uncertainty
@@ -109,7 +108,8 @@ def loads_dataset(
         whole = impact_load(unit, answer, settings).of_tension(answer.design_tension)
         struck = [on_lines(whole.times(share), at, pretension) for share, at in zip((1.0, *ends), (force, force, most))]
     name = "" if answer is None else f"impact, model {answer.design_model}"
-    rows = []
+    rows, sure = [], {}
+    governing = [item for item in sources if role_of(roles, model_of(item.source)) == "governs"]
     for component in COMPONENTS:
         steady = _steady(unit, component)
         field = _FIELDS[component]
@@ -130,10 +130,13 @@ def loads_dataset(
         if row["wave_source"] and more > 0.0 and role_of(roles, model_of(second.source)) == "governs":
             row |= {"second_wave_load": more, "second_wave_source": second.source}
         rows.append(row)
+        best = max(governing, key=lambda item: getattr(item.high, field), default=_NOTHING)
+        alone = _row(unit, component, steady, factor * getattr(best.loads, field), (0.0, 0.0, 0.0), best.source, "")
+        sure[component] = alone | {"wave_high": factor * getattr(best.high, field)}
     weaker, bounds = (
         _weaker_rows(unit, settings, answer, proportions, weaker_waves, upright=governs) for governs in (True, False)
     )
-    return _table(unit, rows, moved, roles, weaker, bounds), tuple(notices)
+    return _table(unit, rows, moved, roles, weaker, bounds, sure), tuple(notices)
 
 
 def dynamic_loads_dataset(unit: LevelCurtain, moved: DynamicLoads) -> xr.Dataset:
@@ -184,7 +187,9 @@ def _table(
     unit: LevelCurtain, rows: list[dict[str, float | str]], moved: DynamicLoads, roles: tuple[ModelRole, ...],
     weaker: Mapping[str, list[dict[str, float | str]]] = MappingProxyType({}),
     bounds: Mapping[str, list[dict[str, float | str]]] = MappingProxyType({}),
+    sure: Mapping[str, dict[str, float | str]] = MappingProxyType({}),
 ) -> xr.Dataset:  # fmt: skip
+    """Return the table; ``sure`` are the rows of models that govern alone, known next to a bound."""
     import xarray as xr
 
     decided = [_decided(unit, row, moved, roles) for row in rows]
@@ -192,6 +197,9 @@ def _table(
     for number, row in enumerate(decided):
         name = str(row["component"])
         slower = [_decided(unit, other, NOT_MOVED, plate) for other in weaker.get(name, [])]
+        if row["load_bound"] == "at most" and name in sure and name != "float":
+            alone = _decided(unit, sure[name], NOT_MOVED, roles)
+            slower.append(alone | {"impact_source": alone["wave_source"] or "in the current alone"})
         most = [_decided(unit, other, NOT_MOVED, bound) for other in bounds.get(name, [])]
         decided[number] = _with_bound(_with_weaker(row, slower), slower, most)
     rows = _with_joint(unit, decided, frozenset(name for name, span in moved.items() if span.open))
@@ -347,10 +355,8 @@ def _wave_sources(
     oscillator: tuple[tuple[str, float, float], ...],
     proportions: ImpactAnswer | None,
     curve: DragCurve,
-    *,
-    upright: bool,
 ) -> tuple[list[_Added], list[Notice]]:
-    """Return what each wave adds by each model; an upright plate that governs pulls at its anchor lines too."""
+    """Return what each wave adds by each model; a plate pulls at its anchor lines too."""
     sources: list[_Added] = []
     notices: list[Notice] = []
     anchor = settings.anchor_loads
@@ -383,12 +389,8 @@ def _wave_sources(
             sources.append(_Added(lifted, f"energy model, {wave.name}", lifted))
     if proportions is not None:
         turned = impact_load(unit, proportions, settings)
-        with_energy = any(item.source.startswith("energy model") for item in sources)
         for name, *ends in oscillator:
             found = [turned.of_tension(tension) for tension in ends]
-            if with_energy and not upright:
-                # the energy model was fitted to anchor lines of free toes; fixed supports would overload them
-                found = [replace(whole, anchor_line=0.0) for whole in found]
             more, end = (whole if statics is None else increase(whole, statics) for whole in found)
             value, high = on_lines(more, force, pretension), on_lines(end, most, pretension)
             sources.append(_Added(value, f"slack and taut cycles, {name}", high))

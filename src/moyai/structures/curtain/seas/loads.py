@@ -209,8 +209,6 @@ class SeaLoads:
     impact: ImpactLoad | None = None
     #: Slack and taut cycles, and how their tension goes to the components.
     snaps: tuple[SnapTable, ImpactLoad] | None = None
-    #: Whether the plate is upright, so that its snaps pull at the anchor lines as well as the energy model says.
-    upright: bool = False
     #: Whether snaps count at the upper end of the interval of their mean.
     judged: bool = False
     #: What the upper end of the drag coefficient makes of that end [-].
@@ -246,9 +244,6 @@ class SeaLoads:
             )
             tension *= self.strong_drag if self.judged else 1.0
             struck = proportions.of_tension(tension, current)
-            if self.energy is not None and not self.upright:
-                # the energy model was fitted to anchor lines of free toes; fixed supports would overload them
-                struck = replace(struck, anchor_line=0.0)
             found = found.larger(increase(struck, statics))
         return found
 
