@@ -241,9 +241,9 @@ def to_deck(network: Network, *, title: str = "", floating: bool = False) -> Moo
     Raises
     ------
     CaseError
-        All that MoorDyn cannot express: floats that are partly immersed, held components, contact of points with the
-        bed, wakes, bars that carry compression, a bed above or below the depth, diameters of contact in different
-        ratios to the volume.
+        All that MoorDyn cannot express: floats that are partly immersed, held components, wakes, bars that carry
+        compression, a bed above or below the depth, diameters of contact in different ratios to the volume. Contact of
+        points with the bed is left out, with a note where they are heavy.
     """
     equivalent = [math.sqrt(4.0 * kind.volume_per_length / math.pi) for kind in network.bars.types]
     faults = _inexpressible(network, equivalent, floating)
@@ -273,7 +273,11 @@ def to_deck(network: Network, *, title: str = "", floating: bool = False) -> Moo
         ]
     # the default step of MoorDyn diverges on stiff lines, and its default scheme lets undamped waves grow
     options += [DeckOption("tScheme", "RK4"), DeckOption("dtM", safe_step(network))]
-    return MoorDynDeck(kinds, points, lines, tuple(options), title=title)
+    nodes, names = network.nodes, {node: name for name, node in network.points.items()}
+    heavy = (nodes.contact_area > 0.0) & (nodes.mass > water.density * nodes.volume)
+    resting = [names.get(node, f"node {node}") for node in map(int, np.flatnonzero(heavy))]
+    left_out = f"the bed does not carry {', '.join(resting)} there, but for the area of the lines next to it"
+    return MoorDynDeck(kinds, points, lines, tuple(options), title=title, notes=(left_out,) if resting else ())
 
 
 def safe_step(network: Network) -> float:
@@ -307,8 +311,6 @@ def _inexpressible(network: Network, equivalent: list[float], floating: bool) ->
             refuse("partial immersion", label)
         if free[node] and nodes.held[node].any():
             refuse("a component that is held", label)
-        if nodes.contact_area[node] > 0.0:
-            refuse("contact of a point with the bed", label)
         if nodes.added_mass[node] > 0.0 and nodes.volume[node] <= 0.0:
             refuse("added mass without volume", label)
     if np.any(bars.flow_factor != 1.0):

@@ -34,6 +34,8 @@ from moyai.structures.network.case import schema_parts as parts
 from moyai.structures.network.case.schema import ElevationRecord, NetworkCase, WavesOneByOne
 from moyai.tables.lines import line_type
 
+#: Density of what has a mass and no volume, for its size [kg/m3].
+_STEEL = 7850.0
 #: How far a plane bed reaches [m].
 _REACH = 1e4
 #: Motions of a body, in the order of its degrees of freedom.
@@ -313,10 +315,17 @@ def _attached(entry: Any) -> model.Attached:
     height, form = entry.height, BOX
     if height is None:
         height, form = _diameter(entry.volume), SPHERE
+    across = _diameter(entry.volume or entry.mass / _STEEL)
     return model.Attached(
         entry.mass, entry.volume, height, form, drag_area=entry.drag_area,
-        added_mass_coefficient=entry.added_mass_coefficient, contact_area=getattr(entry, "bed_contact_area", 0.0),
+        added_mass_coefficient=entry.added_mass_coefficient, contact_area=_contact_area(entry, across),
     )  # fmt: skip
+
+
+def _contact_area(entry: Any, diameter: float) -> float:
+    """Return the area with which something of a diameter [m] lies on the bed, unless the case gives it."""
+    given = entry.bed_contact_area
+    return math.pi / 4.0 * diameter**2 if given is None else float(given)
 
 
 def _diameter(volume: float) -> float:
@@ -350,7 +359,8 @@ def _point(name: str, entry: Any) -> model.PointPlan:
     else:
         carried = _attached(entry)
         diameter = _diameter(carried.volume)
-    carried = replace(carried, contact_area=entry.bed_contact_area)
+    if diameter and not isinstance(entry, parts.FreePoint):
+        carried = replace(carried, contact_area=_contact_area(entry, diameter))
     # free points start from still water, wherever it stands
     return model.PointPlan(name, "free", place, "", True, carried, held, diameter)  # type: ignore[arg-type]
 

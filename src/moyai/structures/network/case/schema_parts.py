@@ -264,12 +264,18 @@ class DrivenPoint(Block):
     z_from: ZFrom = Field(default="datum", description="datum, or still_water. Default: datum.")
 
 
+_CONTACT = (
+    "Area of contact with the bed. Default: that of its cross section seen from above, of a sphere where no shape is "
+    "given; without a volume that of a sphere of steel of its mass."
+)
+
+
 class _Moving(Block):
     position: Place = Field(description="Where it starts: x, y, z.")
     held: Annotated[tuple[Axis, ...], Field(max_length=3), AfterValidator(once_each)] = Field(
         default=(), description="Components that do not move. Default: none."
     )
-    bed_contact_area: Area = Field(default=0.0, description="Area of contact with the bed. Default: 0.")
+    bed_contact_area: Area | None = Field(default=None, description=_CONTACT)
 
 
 _Height = Annotated[float, QuantityOf(quantities.LENGTH, least=0.0)]
@@ -323,6 +329,7 @@ class Weight(Block):
     height: _Height | None = Field(default=None, description=_HEIGHT)
     drag_area: Area = Field(default=0.0, description="Drag coefficient times area. Default: 0.")
     added_mass_coefficient: NonNegativeNumber = Field(default=0.0, description="On the volume. Default: 0.")
+    bed_contact_area: Area | None = Field(default=None, description=_CONTACT)
 
 
 class LinePartKeys(Block):
