@@ -5,8 +5,6 @@ The exact solver starts from the last horizontal tension of a line, so that a st
 
 from __future__ import annotations
 
-from typing import Any
-
 import numpy as np
 
 from moyai.core.arrays import Array, IntArray
@@ -25,12 +23,14 @@ _LOOKUP, _XI_BINS, _Z_BINS = pk.LOOKUP, pk.XI_BINS, pk.Z_BINS
 
 
 @njit(cache=True, error_model="numpy")
-def _turned(a: float, b: float, c: float, cosines: Any, sines: Any) -> tuple[float, float, float]:
-    """Return a vector turned about x, y and z."""
-    (cr, cp, cy), (sr, sp, sy) = cosines, sines
-    x = cy * cp * a + (cy * sp * sr - sy * cr) * b + (cy * sp * cr + sy * sr) * c
-    y = sy * cp * a + (sy * sp * sr + cy * cr) * b + (sy * sp * cr - cy * sr) * c
-    return x, y, -sp * a + cp * sr * b + cp * cr * c
+def _shares(square: float) -> tuple[float, float]:
+    """Return sin(t)/t and (1 - cos(t))/t^2 for the square of an angle t, by their series where it is small."""
+    if square < 0.04:
+        sine = 1.0 - square / 6.0 * (1.0 - square / 20.0 * (1.0 - square / 42.0 * (1.0 - square / 72.0)))
+        rest = 0.5 - square / 24.0 * (1.0 - square / 30.0 * (1.0 - square / 56.0 * (1.0 - square / 90.0)))
+        return sine, rest
+    angle = np.sqrt(square)
+    return np.sin(angle) / angle, (1.0 - np.cos(angle)) / square
 
 
 @njit(cache=True, error_model="numpy")
@@ -50,7 +50,8 @@ def space_line_force(
     Parameters
     ----------
     position : ndarray (6 b,)
-        x, y, z [m], turns about x, y, z [rad] of every body, as :mod:`moyai.mooring.system` takes them.
+        x, y, z [m] and the vector of the turn [rad] of every body: along its axis, as long as its angle. The same
+        motion has the same components in turned axes, which angles one after the other have not.
     body : ndarray (lines,) of int
         That a line holds; lines of one body stand together.
     parameters, index, nodes, lookup : ndarray
@@ -62,15 +63,20 @@ def space_line_force(
     tension : ndarray (lines,)
         Receives the fairlead tension of one copy [N].
     """
-    holder, cosines, sines = -1, (1.0, 1.0, 1.0), (0.0, 0.0, 0.0)
+    holder, roll, pitch, yaw, sine, rest = -1, 0.0, 0.0, 0.0, 1.0, 0.5
     for i in range(parameters.shape[0]):
         first = 6 * body[i]
         row = parameters[i]
         if body[i] != holder:
             holder = body[i]
             roll, pitch, yaw = position[first + 3], position[first + 4], position[first + 5]
-            cosines, sines = (np.cos(roll), np.cos(pitch), np.cos(yaw)), (np.sin(roll), np.sin(pitch), np.sin(yaw))
-        arm_x, arm_y, arm_z = _turned(row[_FAIRLEAD], row[_FAIRLEAD + 1], row[_FAIRLEAD + 2], cosines, sines)
+            sine, rest = _shares(roll * roll + pitch * pitch + yaw * yaw)
+        arm_x, arm_y, arm_z = row[_FAIRLEAD], row[_FAIRLEAD + 1], row[_FAIRLEAD + 2]
+        # Rodrigues: r + sin(t)/t (t x r) + (1 - cos(t))/t^2 (t x (t x r))
+        ax, ay, az = pitch * arm_z - yaw * arm_y, yaw * arm_x - roll * arm_z, roll * arm_y - pitch * arm_x
+        arm_x += sine * ax + rest * (pitch * az - yaw * ay)
+        arm_y += sine * ay + rest * (yaw * ax - roll * az)
+        arm_z += sine * az + rest * (roll * ay - pitch * ax)
         dx = position[first] + arm_x - row[_ANCHOR]
         dy = position[first + 1] + arm_y - row[_ANCHOR + 1]
         dz = position[first + 2] + arm_z - row[_ANCHOR + 2]

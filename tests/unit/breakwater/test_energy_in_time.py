@@ -103,6 +103,38 @@ def test_no_period_out_of_its_range_decides_a_headline(at_rest, in_motion):
     assert moving.model == "time domain, lines in motion" and "out of its range" not in moving.detail
 
 
+PILES = """\
+moyai: 1
+title: Pontoon between stiff springs that only pull
+site: {water_depth: 9 m, density: 1025 kg/m3, gravity: 9.81 m/s2}
+waves: {name: op, kind: regular, height: 0.6 m, period: 3 s, heading_deg: 0}
+structure:
+  kind: breakwater
+  length: 15 m
+  section: {shape: rectangle, beam: 5 m, height: 1.8 m}
+  draught: 1.2 m
+  centre_of_gravity_above_keel: 0.95 m
+  roll_gyradius: 1.6 m
+lines:
+  - {name: seaward, kind: spring, count: 2, fairlead: {x: -2.5 m, above_keel: 1.2 m}, anchor: {x: -4 m, z: 0 m},
+     stiffness: 400 kN/m, pretension: 0 N}
+  - {name: shoreward, kind: spring, count: 2, fairlead: {x: 2.5 m, above_keel: 1.2 m}, anchor: {x: 4 m, z: 0 m},
+     stiffness: 400 kN/m, pretension: 0 N}
+analyses: [statics, frequency, time]
+"""
+
+
+@pytest.mark.slow
+def test_springs_that_come_tight_carry_energy_into_other_harmonics_and_the_run_stands(tmp_path):
+    """No chain at rest is out of its range there: the balance of all forces holds, and the page says where it goes."""
+    (tmp_path / "piles.yaml").write_text(PILES, encoding="utf-8")
+    result = run(build(load_case(tmp_path / "piles.yaml")))
+    assert result.status == "converged", result.message
+    (notice,) = [one for one in result.notices if one.code == "energy-in-harmonics"]
+    assert notice.value > notice.limit and "into other harmonics" in notice.message
+    assert next(check for check in result.checks if WORK in check.name).value < 0.02
+
+
 TAUT = """\
 moyai: 1
 title: short chains at high water

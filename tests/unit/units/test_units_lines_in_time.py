@@ -6,6 +6,7 @@ from test_units_links import memory_of
 from test_units_time import HINGE, at_rest, moored
 
 from moyai.mooring import Line, LineSystem, LineType, Segment, SpringLine
+from moyai.mooring.rotations import roll_pitch_yaw, rotation_from_vector
 from moyai.mooring.space_kernel import space_line_force
 from moyai.mooring.table import compile_lines
 from moyai.structures.units.bem import panels_of
@@ -16,6 +17,30 @@ from moyai.structures.units.time import kernel
 from moyai.structures.units.time import model as model_in_time
 from moyai.structures.units.time.model import RowInTime
 from moyai.validation.units import WATER
+
+
+def by_angles(position):
+    """The turn of a position as angles one after the other, from its vector."""
+    return np.concatenate([position[:3], roll_pitch_yaw(rotation_from_vector(position[3:]))])
+
+
+def test_lines_in_space_pull_alike_in_turned_axes():
+    """A large roll and pitch seen along other axes are the same motion."""
+    turn = rotation_from_vector((0.0, 0.0, 0.7))
+    chain = LineType("chain", submerged_weight=900.0, axial_stiffness=3e7)
+    ends = np.array([(-50.0, 12.0, -10.0), (-5.0, 8.0, -1.0)])
+    found = []
+    for frame in (np.eye(3), turn):
+        anchor, fairlead = ends @ frame.T
+        line = Line("one", tuple(anchor), tuple(fairlead), (Segment(chain, 48.0),))
+        packed = compile_lines(LineSystem((line,), 10.0))
+        position = np.concatenate([frame @ (0.5, -0.3, 0.2), frame @ (0.35, -0.25, 0.1)])
+        force, tension = np.zeros(6), np.zeros(1)
+        space_line_force(position, np.zeros(1, dtype=np.int64), *packed.arguments, np.zeros(1), force, tension)
+        found.append((tension[0], frame.T @ force[:3], frame.T @ force[3:]))
+    (one, pull, moment), (other, turned, turned_moment) = found
+    assert other == pytest.approx(one, rel=1e-9)
+    assert np.allclose(turned, pull, rtol=1e-9) and np.allclose(turned_moment, moment, rtol=1e-8)
 
 
 def test_compiled_lines_in_space_are_the_lines():
@@ -35,10 +60,10 @@ def test_compiled_lines_in_space_are_the_lines():
         position[6:] = generator.normal(size=6) * np.array([1.0, 1.0, 0.5, 0.05, 0.1, 0.1])
         force, tension = np.zeros(12), np.zeros(3)
         space_line_force(position, body, *packed.arguments, last, force, tension)
-        exact = system.forces(position[6:])
+        exact = system.forces(by_angles(position[6:]))
         assert np.all(force[:6] == 0.0)
         assert np.allclose(force[6:], exact, rtol=1e-6, atol=1e-6 * np.abs(exact).max())
-        assert np.allclose(tension, system.tensions(position[6:]), rtol=1e-6)
+        assert np.allclose(tension, system.tensions(by_angles(position[6:])), rtol=1e-6)
 
 
 def test_tables_of_lines_in_space_hold_their_tolerance_and_beyond_them_lines_are_exact():
@@ -61,7 +86,7 @@ def test_tables_of_lines_in_space_hold_their_tolerance_and_beyond_them_lines_are
             position = width * generator.normal(size=6) * np.array([1.0, 1.0, 0.5, 0.03, 0.05, 0.05])
             force, tension = np.zeros(6), np.zeros(3)
             space_line_force(position, body, *packed.arguments, last, force, tension)
-            exact, pulls = system.forces(position), system.tensions(position)
+            exact, pulls = system.forces(by_angles(position)), system.tensions(by_angles(position))
             assert np.all(np.abs(tension - pulls) <= 1.5e-4 * np.abs(pulls))
             assert np.all(np.abs(force[:3] - exact[:3]) <= 1.5e-4 * np.abs(pulls).sum())
             within.append(np.max(np.abs(tension - pulls) / np.abs(pulls)) > 1e-9)

@@ -8,6 +8,7 @@ import numpy as np
 import pytest
 
 from moyai.mooring import LineType, Segment
+from moyai.mooring.rotations import roll_pitch_yaw, rotation_from_vector
 from moyai.structures.units.assembly import RowAtLevel
 from moyai.structures.units.model import UnitLine
 from moyai.validation.units import WATER, at_rest, row
@@ -34,6 +35,9 @@ def test_force_stiffness_and_tension_are_those_of_each_unit(offset: float) -> No
     at = moored()
     position = offset * np.array([0.8, -0.4, 0.2, 0.01, -0.02, 0.015, -0.6, 0.5, -0.1, 0.02, 0.01, -0.02])
     found = at.row_lines.at(position)
+    # the system of a unit takes its turn as angles one after the other, the row as one vector
+    turns = position.reshape(2, 6)[:, 3:]
+    turns[:] = roll_pitch_yaw(rotation_from_vector(turns))
     stiffness = np.zeros((12, 12))
     for unit, system in enumerate(at.systems):
         part = slice(6 * unit, 6 * unit + 6)

@@ -22,7 +22,7 @@ def beyond_range(data: xr.Dataset, statics: xr.Dataset | None) -> NDArray[np.boo
     """Return the periods (n,) of a sea in time whose numbers decide nothing.
 
     There a chain at rest at every instant passes five times its mean tension, or the loss of the far field is not the
-    work of the damping [eq:breakwater-time-energy].
+    work of the damping [eq:breakwater-time-energy], which springs may do: they have no mass of their own.
 
     Parameters
     ----------
@@ -32,7 +32,12 @@ def beyond_range(data: xr.Dataset, statics: xr.Dataset | None) -> NDArray[np.boo
         Of the same water level; distinguishes chains from springs, which are linear at any tension.
     """
     out = np.zeros(data.sizes["period"], dtype=bool)
-    if "damping_work" in data and "dissipation" in data:
+    chains = (
+        statics is None
+        or "unstretched_length" not in statics
+        or bool(np.isfinite(statics.variables["unstretched_length"].values).any())
+    )
+    if chains and "damping_work" in data and "dissipation" in data:
         share = unexplained_share(
             data.variables["dissipation"].values, data.variables["damping_work"].values, SHOWN_LOSS
         )

@@ -10,7 +10,7 @@ import numpy as np
 
 from moyai.core.arrays import Array, IntArray
 from moyai.mooring.lines import Line, LineElement, LineState
-from moyai.mooring.rotations import cross_matrix, rotation_matrix
+from moyai.mooring.rotations import cross_matrix, rotation_from_vector
 
 
 @dataclass(frozen=True)
@@ -99,7 +99,7 @@ class RowLines:
     def _states(self, positions: Array) -> Iterator[tuple[LineElement, IntArray, LineState]]:
         """Yield every kind of line, which lines are of it, and their states at positions (..., lines, 6)."""
         fairlead, anchor, _ = self._places
-        points = positions[..., :3] + np.einsum("...ij,...j->...i", rotation_matrix(positions[..., 3:]), fairlead)
+        points = positions[..., :3] + np.einsum("...ij,...j->...i", rotation_from_vector(positions[..., 3:]), fairlead)
         for line, which in self._groups:
             there = points[..., which, :] - anchor[which] + np.asarray(line.anchor)
             with np.errstate(invalid="ignore"):
@@ -112,7 +112,7 @@ class RowLines:
         """
         fairlead, anchor, _ = self._places
         place = position.reshape(-1, 6)[self.unit]
-        arm = np.einsum("lij,lj->li", rotation_matrix(place[:, 3:]), fairlead)
+        arm = np.einsum("lij,lj->li", rotation_from_vector(place[:, 3:]), fairlead)
         span = place[:, :3] + arm - anchor
         length = np.linalg.norm(span, axis=1)
         away = span / np.maximum(length, 1e-300)[:, None]
@@ -122,7 +122,7 @@ class RowLines:
         unit, size = self.unit, position.size
         fairlead, anchor, copies = self._places
         force, stiffness, tension = np.zeros((len(unit), 3)), np.zeros((len(unit), 3, 3)), np.zeros(len(unit))
-        arm = np.einsum("lij,lj->li", rotation_matrix(position[:, 3:])[unit], fairlead)
+        arm = np.einsum("lij,lj->li", rotation_from_vector(position[:, 3:])[unit], fairlead)
         points = position[unit, :3] + arm
         for line, which in self._groups:
             there = points[which] - anchor[which] + np.asarray(line.anchor)

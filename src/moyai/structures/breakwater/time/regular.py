@@ -21,6 +21,7 @@ from moyai.floating.memory import StateSpaceMemory
 from moyai.floating.modes import natural_modes
 from moyai.floating.moving_water import MovingWater
 from moyai.floating.time import CumminsModel, Simulation
+from moyai.mooring.lines import SpringLine
 from moyai.series.harmonics import Harmonics, fit_last_periods
 from moyai.structures.breakwater.frequency.model import FrequencyModel, motion_ratio
 from moyai.structures.breakwater.hydrodynamics import wavelengths
@@ -34,7 +35,7 @@ from moyai.structures.breakwater.responses import (
     snap_notices,
 )
 from moyai.structures.breakwater.settings import MODES, TimeSettings
-from moyai.structures.breakwater.time.energy import HIGHER, EnergyOfPeriod, energy_checks, energy_of_period
+from moyai.structures.breakwater.time.energy import HIGHER, EnergyOfPeriod, energy_checks, energy_of_period, of_springs
 from moyai.structures.breakwater.time.lines import lines_at_rest, motion_names, motion_summary
 from moyai.structures.breakwater.time.model import SeaOfRun, TimeResult, TimeRun, linear_damping, run_with_lines
 from moyai.structures.breakwater.variables import labelled
@@ -166,6 +167,9 @@ def regular_sea(
     notices.extend(_created_energy(data, f"{unit.name}, {sea.name}"))
     data.attrs |= {"kind": "regular", "height": sea.height, "heading": sea.heading, "status": status}
     checks = energy_checks(energies, f"{unit.name}, {sea.name}")
+    if all(isinstance(line, SpringLine) for line in unit.lines):
+        checks, said = of_springs(checks)
+        notices.extend(said)
     return TimeResult(labelled(data), tuple(runs), tuple(notices), status, checks)
 
 

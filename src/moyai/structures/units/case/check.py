@@ -18,7 +18,7 @@ from moyai.case.yaml_reader import KeyPath
 from moyai.core.arrays import Array
 from moyai.core.errors import ConvergenceError, InputError
 from moyai.mooring.lines import Line, LineElement
-from moyai.mooring.rotations import rotation_matrix
+from moyai.mooring.rotations import rotation_from_vector
 from moyai.sea.states import RegularSea
 from moyai.structures.units.case import schema
 from moyai.structures.units.model import ON_HULL
@@ -421,7 +421,7 @@ def _placed(
         for index, line in zip(own, lines, strict=True):
             entry = model.lines[index]
             if isinstance(line, Line):
-                x, y, z = (move[:3] + rotation_matrix(move[3:]) @ np.asarray(line.fairlead)).tolist()
+                x, y, z = (move[:3] + rotation_from_vector(move[3:]) @ np.asarray(line.fairlead)).tolist()
                 yield index, entry, replace(line, fairlead=(x, y, z)), at.water.depth + float(centre[2])
 
 

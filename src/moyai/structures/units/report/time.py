@@ -8,7 +8,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from moyai.core.arrays import Array, IntArray
-from moyai.mooring.rotations import rotation_matrix
+from moyai.mooring.rotations import rotation_from_vector, rotation_matrix
 from moyai.report.animation_3d import animation_3d
 from moyai.report.decimate import focus_indices, window_around
 from moyai.report.document import Abscissa, Animation, Block, Figure, Mark, Panel, Series
@@ -123,7 +123,7 @@ def _scene(level: Group, sea: Group, record: _Record) -> Animation | None:
     turned = rotation_matrix(np.stack([0.0 * heading, 0.0 * heading, heading], axis=1))
     moved = record.motion[rows]
     origin = centre + np.einsum("uij,tuj->tui", turned, moved[..., :3])
-    rotation = np.einsum("uij,tujk->tuik", turned, rotation_matrix(moved[..., 3:]))
+    rotation = np.einsum("uij,tujk->tuik", turned, rotation_from_vector(moved[..., 3:]))
     size = [float(statics.attributes[name]) for name in ("beam", "length", "height")]
     low = np.array([-0.5 * size[0], -0.5 * size[1], statics.value("freeboard") - size[2]])
     high = np.array([0.5 * size[0], 0.5 * size[1], statics.value("freeboard")])

@@ -27,7 +27,7 @@ from moyai.flexible.simulation import simulate
 from moyai.flexible.statics import solve_equilibrium
 from moyai.floating.forcing import cosine_ramp
 from moyai.mooring.lines import Line
-from moyai.mooring.rotations import rotation_matrix
+from moyai.mooring.rotations import rotation_from_vector
 from moyai.sea.components import WaveComponents
 from moyai.structures.units.assembly import RowAtLevel
 from moyai.structures.units.model import SNAP_RATIO, UnitLine
@@ -151,7 +151,7 @@ def rerun(
     position, speed = given.motion(moving.unit, slice(first, last + 1))
     place = fairlead(moving.line, position)
     start = place[0]
-    turned = rotation_matrix(position[:, 3:])
+    turned = rotation_from_vector(position[:, 3:])
     arm = np.einsum("tij,j->ti", turned, np.asarray(moving.line.fairlead, dtype=float))
     rate = speed[:, :3] + np.cross(speed[:, 3:], arm)
     time = step * np.arange(len(place))
@@ -183,7 +183,7 @@ def rerun(
 
 def fairlead(line: Line, position: Array) -> Array:
     """Return the fairlead (n, 3) [m] of a line about the place of its unit at rest, for motions (n, 6)."""
-    turned = rotation_matrix(position[:, 3:])
+    turned = rotation_from_vector(position[:, 3:])
     return np.asarray(position[:, :3] + np.einsum("tij,j->ti", turned, np.asarray(line.fairlead, dtype=float)))
 
 
