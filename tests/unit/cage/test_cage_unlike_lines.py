@@ -6,12 +6,12 @@ import xarray as xr
 
 import moyai
 from moyai.case.templates import template
-from moyai.core.headline import Criterion, judge, unfavourable
+from moyai.core.headline import Criterion, Headline, judge, unfavourable
 from moyai.structures.cage.bands import LevelState
 from moyai.structures.cage.flexible import run as flexible_run
 from moyai.structures.cage.flexible.law_runs import line_quantity
-from moyai.structures.cage.flexible.sensitivity import tension_of
-from moyai.structures.cage.headlines import _anchor, _tension, flexible_headlines
+from moyai.structures.cage.flexible.sensitivity import NET_TENSION, tension_of
+from moyai.structures.cage.headlines import DYNAMIC, _anchor, _tension, flexible_headlines, judged_seas
 
 TIME = np.arange(0.0, 400.0, 0.5)
 
@@ -150,3 +150,13 @@ def test_a_wave_that_was_not_run_under_the_laws_takes_their_largest_ratio():
 def test_a_law_whose_run_fails_leaves_a_bound():
     pulls, verdict = in_waves({"/SWL/laws_in_waves/storm/wave 1": law_runs([40e3], "milne")}, 65e3)
     assert verdict.outcome == "not judged" and any(item.bound == "at least" for item in pulls)
+
+
+@pytest.mark.parametrize(("coarser", "bound"), [(0.9, ""), (0.75, "at least")])
+def test_a_net_tension_that_grows_with_the_mesh_is_known_from_below(coarser, bound):
+    """At a knot with a weight it goes with one over the width of the mesh: no band of two meshes holds it."""
+    item = Headline("net_tension", "largest tension of the net", 1000.0, "N/m", "", DYNAMIC)
+    change = 1.0 - coarser
+    (found,) = judged_seas([item], factors={NET_TENSION: (1.0 - change, 1.0 + change)})
+    assert found.bound == bound
+    assert found.band.high == pytest.approx(1000.0 * (1.0 + change))

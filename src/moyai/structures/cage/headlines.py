@@ -40,6 +40,8 @@ STATICS, DYNAMIC = "equilibrium in the current of the site", "run through time"
 #: By which factors a finer mesh may move each number, either way.
 Factors = Mapping[str, tuple[float, float]]
 NO_MESH: Factors = MappingProxyType({})
+#: Change of the tension of the net with the mesh from which on it is known from below alone.
+_GROWTH = 0.2
 Groups = Mapping[str, "xr.Dataset"]
 NOT_JUDGED = Headline(
     "not_judged", "Not judged", math.nan, "1",
@@ -124,7 +126,12 @@ def _with_mesh(item: Headline, factors: Factors) -> Headline:
     band = item.band or Band(item.value, item.value, "")
     words = f"mesh ±{100.0 * (more - 1.0):.2g} %, the change of a coarser one"
     words = "; ".join(filter(None, (band.of, words)))
-    return replace(item, band=replace(band, low=band.low * less, high=band.high * more, of=words))
+    item = replace(item, band=replace(band, low=band.low * less, high=band.high * more, of=words))
+    if item.name != "net_tension" or more <= 1.0 + _GROWTH:
+        return item
+    # what a weight or a rope brings in at a knot goes over the width of the mesh there: a finer one has no limit
+    grows = "grows with finer meshes at weights and ropes; ropes sewn into the net are judged apart"
+    return replace(item, bound="at least", detail="; ".join(filter(None, (item.detail, grows))))
 
 
 def _state(level: str, groups: Groups) -> LevelState:

@@ -29,7 +29,15 @@ def _check_ropes(unit: FlexibleCageStructure, findings: Findings) -> None:
 
 
 def _check_sinkers(model: schema.CageCase, unit: FlexibleCageStructure, findings: Findings) -> None:
-    """Refuse sinkers that are lighter than water."""
+    """Refuse sinkers that are lighter than water, and more of them than the net has knots around."""
+    around = unit.mesh.around
+    if unit.sinkers is not None and unit.sinkers.count > around:
+        findings.fault(
+            ("structure", "sinkers", "count"),
+            f"{unit.sinkers.count} sinkers on a net of {around} knots around",
+            allowed=f"at most {around}",
+            remedy="give more knots around in 'mesh', a multiple of 4, or fewer and heavier sinkers",
+        )
     density = None if unit.sinkers is None else unit.sinkers.density
     if density is not None and density <= model.site.density:
         findings.fault(

@@ -46,11 +46,12 @@ KINDS = ("anchor", "bridle", "frame", "buoy")
 
 
 def coarser(mesh: CageMesh, sinkers: int = 1) -> CageMesh:
-    """Return a mesh that is coarser by a third, around up to a half where it then has a knot for each sinker."""
+    """Return a mesh that is coarser by a third, around up to a half or not at all so that each sinker has a knot."""
     every = math.lcm(4, sinkers)
     kept = [around for around in range(every, mesh.around, every) if 0.5 <= around / mesh.around <= 0.75]
     around = min(kept, key=lambda count: abs(count - mesh.around * 2.0 / 3.0), default=0)
     around = max(8, around or 4 * round(mesh.around * 2.0 / 3.0 / 4.0))
+    around = mesh.around if sinkers > around else around
     return CageMesh(
         around, max(1, round(mesh.down * 2 / 3)), max(1, round(mesh.bottom * 2 / 3)), 1.5 * mesh.rope_length
     )
