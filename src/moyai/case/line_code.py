@@ -72,10 +72,15 @@ def code_criterion(given: Any, analysis: str, names: Iterable[str | None], *, as
     materials = {block.component} if block and block.component else _materials(rules, names)
     found = []
     for material in sorted(materials):
-        value = _limit(rules, chosen, consequence, material)
+        value, judged_as = _limit(rules, chosen, consequence, material), material
+        if value is None and assumed:
+            # nobody asked for this code: a material that it does not know is judged as its strictest one
+            others = [(_limit(rules, chosen, consequence, other), other) for other in _materials(rules, [None])]
+            known = [(limit, other) for limit, other in others if limit is not None]
+            value, judged_as = min(known, key=lambda item: item[0][0], default=(None, material))
         if value is None:
             raise _no_value(name, rules, chosen, material)
-        found.append((value, material))
+        found.append((value, material if judged_as == material else f"{material} judged as {judged_as}"))
     (limit, weight, used, words), material = min(found, key=lambda item: item[0][0])
     sure = all(rule.confirmed for rule in used) or bool(block and name in block.confirmed)
     doubt = "" if sure else f", {UNCONFIRMED}"

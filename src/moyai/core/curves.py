@@ -31,9 +31,16 @@ class Spline:
         Real or complex.
     degree : int
         Odd.
+
+    Raises
+    ------
+    ValueError
+        When there are fewer than two points or they do not increase.
     """
 
     def __init__(self, x: Array, values: NDArray[Any], degree: int = 3) -> None:
+        if len(x) < 2 or not (np.diff(x) > 0.0).all():
+            raise ValueError("a spline goes through two points or more that increase")
         size, degree = len(x), min(degree, len(x) - 1)
         skipped = (degree + 1) // 2
         #: Ends of the pieces; shape (size - degree + 1,).
@@ -69,7 +76,7 @@ def in_pieces(knots: Array, powers: NDArray[Any], x: ArrayLike, derivative: int 
     """
     at = np.asarray(x, dtype=float)
     piece, beyond = _places(knots, at)
-    beyond = beyond.reshape(*at.shape, *[1] * (powers.ndim - 2))
+    beyond = np.reshape(beyond, (*at.shape, *[1] * (powers.ndim - 2)))
     total: NDArray[Any] = np.zeros((*at.shape, *powers.shape[2:]), powers.dtype)
     for power in range(len(powers) - 1, derivative - 1, -1):
         total = total * beyond + perm(power, derivative) * powers[power, piece]
@@ -117,7 +124,7 @@ def crossing(function: Callable[[float], float], low: float, high: float, *, tol
     Raises
     ------
     ValueError
-        Where the signs are the same.
+        Where the signs are the same, or a value is none.
 
     Notes
     -----
@@ -125,7 +132,9 @@ def crossing(function: Callable[[float], float], low: float, high: float, *, tol
     """
     a, b = high, low
     at_a, at_b = function(a), function(b)
-    if at_a * at_b > 0.0:
+    if at_a == 0.0 or at_b == 0.0:
+        return a if at_a == 0.0 else b
+    if (at_a < 0.0) == (at_b < 0.0) or at_a != at_a or at_b != at_b:
         raise ValueError(f"{at_b:g} at {low:g} and {at_a:g} at {high:g} have the same sign")
     share = 0.5
     while True:

@@ -10,6 +10,8 @@ from case_files import CASE, faults, read
 
 from moyai.case.builder import build
 from moyai.case.criteria import criteria_of
+from moyai.case.line_code import code_criterion
+from moyai.core.errors import InputError
 from moyai.core.headline import Band, Criterion, Headline, judge
 from moyai.design.codes import LineLoad, check_line, design_code
 
@@ -145,3 +147,12 @@ def test_each_tension_is_judged_by_the_factor_of_its_own_analysis():
 def test_a_code_for_the_analysis_that_the_case_names_judges_all():
     given = criteria("criteria: {code: {name: ISO 19901-7, analysis: quasi_static}}\n")["code"]
     assert given.analysis == "" and 1.0 / given.limit == pytest.approx(2.0)
+
+
+def test_a_default_code_judges_a_material_that_it_does_not_know_as_its_strictest_one():
+    """Nobody asked for the code: it may not refuse the case. A code of the case does."""
+    known, unknown = (code_criterion("NS 9415", "dynamic", [name], assumed=True) for name in ("rope", "wire"))
+    assert unknown.limit == known.limit
+    assert "wire judged as rope" in unknown.source
+    with pytest.raises(InputError, match="no value for a wire"):
+        code_criterion("NS 9415", "dynamic", ["wire"])

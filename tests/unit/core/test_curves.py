@@ -9,7 +9,7 @@ import pytest
 from scipy.interpolate import CubicSpline, make_interp_spline
 from scipy.optimize import brentq
 
-from moyai.core.curves import Spline, crossing
+from moyai.core.curves import Spline, crossing, in_pieces
 
 
 def points(count: int) -> tuple[np.ndarray, np.ndarray]:
@@ -64,3 +64,26 @@ def test_crossings_are_those_of_scipy_in_as_many_steps(function: object, low: fl
 
 def test_a_jump_is_a_crossing() -> None:
     assert crossing(lambda v: -1.0 if v < 0.7 else 1.0, 0.0, 1.0, tolerance=1e-12) == pytest.approx(0.7, abs=1e-12)
+
+
+def test_a_root_at_an_end_is_that_end() -> None:
+    assert crossing(lambda v: 1.0 - v, 0.0, 1.0, tolerance=1e-14) == 1.0
+    assert crossing(lambda v: v, 0.0, 1.0, tolerance=1e-14) == 0.0
+
+
+@pytest.mark.parametrize("function", [lambda v: math.nan, lambda v: 1e-200 * (v + 1.0)])
+def test_no_crossing_is_refused_whatever_the_product_of_the_values(function: object) -> None:
+    with pytest.raises(ValueError, match="same sign"):
+        crossing(function, 0.0, 1.0, tolerance=1e-12)  # type: ignore[arg-type]
+
+
+def test_a_single_place_gives_a_single_value() -> None:
+    spline = Spline(np.array([0.0, 1.0, 2.0, 4.0]), np.array([0.0, 1.0, 4.0, 16.0]))
+    assert float(spline(3.0)) == pytest.approx(9.0)
+    assert in_pieces(np.array([0.0, 1.0]), np.array([[1.0], [2.0]]), 0.5).shape == ()
+
+
+@pytest.mark.parametrize("places", [[1.0], [0.0, 1.0, 1.0], [2.0, 1.0]])
+def test_places_that_do_not_increase_are_refused(places: list[float]) -> None:
+    with pytest.raises(ValueError, match="increase"):
+        Spline(np.array(places), np.ones(len(places)))

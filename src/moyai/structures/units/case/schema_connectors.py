@@ -56,12 +56,15 @@ Direction = Annotated[
 ]
 
 
+_Slope = Annotated[float, QuantityOf(quantities.NUMBER, above=0.0, most=30.0)]
+
+
 class Endurance(Block):
     """Curve of endurance: N = cycles (range / force)^-exponent."""
 
     range: PositiveForce = Field(description="Range of force that the connector withstands 'cycles' times.")
     cycles: PositiveNumber = Field(description="Number of cycles at that range.", examples=[1000000])
-    exponent: PositiveNumber = Field(description="Inverse slope m of the curve.", examples=[3])
+    exponent: _Slope = Field(description="Inverse slope m of the curve: 3 to 5 of steel, to 20 of ropes.", examples=[3])
 
 
 class ConnectorBlock(Block):
