@@ -68,6 +68,7 @@ def relax_network(
     bare = _masses(run)
     pace = np.zeros((3, len(network.nodes)))
     bed = kernel_bed(network)
+    bed[1] *= -1.0
     fluid = np.array([network.water.density, network.water.gravity])
     done, left, worst, reference = 0, math.inf, 0, 1.0
     while done < most_steps:

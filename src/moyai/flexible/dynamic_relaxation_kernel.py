@@ -14,7 +14,7 @@ from moyai.flexible.explicit_forces import bending_forces, rib_forces, spine_for
 from moyai.flexible.explicit_loads import loads
 from moyai.flexible.explicit_parts import add_ring_forces, add_sheet_forces, room_for_speeds, screens
 from moyai.flexible.explicit_rows import FREE_X, FX, QX, ROW, STIFF, TX, X, Y, Z
-from moyai.flexible.ground_kernel import FLAT, ground
+from moyai.flexible.ground_kernel import FLAT, ground, held
 
 
 @njit(cache=True, error_model="numpy")
@@ -70,6 +70,7 @@ def relax(
                         if bed.size > FLAT:
                             level, nx, ny, nz = ground(bed, A[X + i], A[Y + i])
                         push = max(A[STIFF + i] * (level - A[Z + i]) * nz, 0.0)
+                        nx, ny, nz = held(bed, nx, ny, nz)
                     force += push * (nx if axis == 0 else (ny if axis == 1 else nz))
                 force *= free
                 part += force * force

@@ -81,7 +81,7 @@ def advice(network: Network, place: Array, flow: Flow) -> str:
         axes = " and ".join(name for name, free in zip("xy", loose[drifting[0], :2], strict=True) if free)
         return (
             f"nothing holds the {own.size} nodes around {name_of_node(network, int(own[0]))} along {axes}: the "
-            "current moves them away (friction of the bed is left out of statics); add an anchor"
+            "current moves them away (friction of the bed holds no pull in statics); add an anchor"
         )
     if loose[:, 2].any():
         return "nothing holds the network vertically: add an anchor, a bed or a float with a height"

@@ -9,7 +9,7 @@ import numpy as np
 
 from moyai.core.compiled import njit
 from moyai.flexible.force_kernel import elastic_pull
-from moyai.flexible.ground_kernel import ground
+from moyai.flexible.ground_kernel import ground, held
 
 
 @njit(cache=True, error_model="numpy")
@@ -53,6 +53,7 @@ def mixed_laws(
             gap = share * (nodes[5, i] * (level - x[i, 2]) * nz - pushes[i] + square)
             node_law[0, i], node_law[2, i], node_law[3, i] = share * nodes[5, i], gap, pushes[i] + gap
             most = max(most, abs(gap) * nodes[11, i])
+            nx, ny, nz = held(bed, nx, ny, nz)
             force[i, 0] += nx * (pushes[i] + gap)
             force[i, 1] += ny * (pushes[i] + gap)
             force[i, 2] += nz * (pushes[i] + gap)
@@ -77,6 +78,7 @@ def mixed_step(
             change = node_law[2, i] - node_law[0, i] * (nx * step[i, 0] + ny * step[i, 1] + nz * step[i, 2])
             new_pushes[i] = max(pushes[i] + part * change, 0.1 * pushes[i])
             _, nx, ny, nz = ground(bed, new_x[i, 0], new_x[i, 1])
+            nx, ny, nz = held(bed, nx, ny, nz)
             force[i, 0] += nx * new_pushes[i]
             force[i, 1] += ny * new_pushes[i]
             force[i, 2] += nz * new_pushes[i]

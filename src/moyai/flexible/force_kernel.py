@@ -12,7 +12,7 @@ from typing import Any
 import numpy as np
 
 from moyai.core.compiled import njit
-from moyai.flexible.ground_kernel import FLAT, curving, ground, ground_shape
+from moyai.flexible.ground_kernel import FLAT, curving, ground, ground_shape, held
 
 
 @njit(cache=True, error_model="numpy")
@@ -143,9 +143,10 @@ def forces(x: Any, v: Any, water: Any, system: Any, fluid: Any, bed: Any, force:
             if depth > 0.0 or fluid[2] > 0.0:
                 out = nx * v[i, 0] + ny * v[i, 1] + nz * v[i, 2]
                 push, _ = cut(nodes[5, i] * depth - nodes[6, i] * out, 0.0, fluid[2])
-                force[i, 0] += nx * push
-                force[i, 1] += ny * push
-                force[i, 2] += nz * push
+                ex, ey, ez = held(bed, nx, ny, nz)
+                force[i, 0] += ex * push
+                force[i, 1] += ey * push
+                force[i, 2] += ez * push
                 if bed[1] > 0.0:
                     u[0], u[1], u[2] = v[i, 0] - nx * out, v[i, 1] - ny * out, v[i, 2] - nz * out
                     speed = math.sqrt(u[0] * u[0] + u[1] * u[1] + u[2] * u[2] + bed[2] * bed[2])
@@ -350,7 +351,9 @@ def _add_ground(x: Any, bed: Any, node_law: Any, i: int, by_place: float, exact:
     """Add the stiffness of a bed that varies to the block of one node [eq:flexible-ground]."""
     n, turn = np.empty(3), np.empty(6)
     _, n[0], n[1], n[2] = ground(bed, x[i, 0], x[i, 1])
-    curving(ground_shape(bed, x[i, 0], x[i, 1]), by_place * node_law[3, i], exact, turn)
+    # what friction holds is pushed upwards wherever it goes
+    push = 0.0 if bed[1] < 0.0 else by_place * node_law[3, i]
+    curving(ground_shape(bed, x[i, 0], x[i, 1]), push, exact, turn)
     row = 0
     for p in range(3):
         for q in range(p, 3):

@@ -1,8 +1,8 @@
 """Compiled kernel of the bed: level, slope and curvature at a place.
 
-A bed is one array: 0 level where it is flat, 1 friction, 2 speed below which friction fades, 3 one where there is a
-bed; where it varies there follow 4 and 5 the numbers of grid lines along x and y, 6 the steepest slope, the grid lines
-along x and along y, and the levels, row by row along x [eq:flexible-ground].
+A bed is one array: 0 level where it is flat, 1 friction, less than none for what is at rest, 2 speed below which
+friction fades, 3 one where there is a bed; where it varies there follow 4 and 5 the numbers of grid lines along x and
+y, 6 the steepest slope, the grid lines along x and along y, and the levels, row by row along x [eq:flexible-ground].
 """
 
 from __future__ import annotations
@@ -88,6 +88,20 @@ def ground(bed: Any, x: float, y: float) -> tuple[float, float, float, float]:
     Loops over all nodes ask for it only where the bed is not flat: the call costs more than the rest of the contact.
     """
     return (bed[0], 0.0, 0.0, 1.0) if bed.size == FLAT else _grid_ground(bed, x, y)
+
+
+@njit(cache=True, error_model="numpy")
+def held(bed: Any, nx: float, ny: float, nz: float) -> tuple[float, float, float]:
+    """Return what the bed gives what lies at rest on it per push along its normal [eq:flexible-held].
+
+    Up the slope friction holds its weight, as far as its coefficient allows: the push is upright on slopes up to it.
+    """
+    steep = math.sqrt(nx * nx + ny * ny)
+    if not (bed[1] < 0.0 and steep > 0.0):
+        return nx, ny, nz
+    slope = steep / nz
+    part = min(1.0, -bed[1] / slope)
+    return (1.0 - part) * nx, (1.0 - part) * ny, nz * (1.0 + part * slope * slope)
 
 
 @njit(cache=True, error_model="numpy")

@@ -92,8 +92,8 @@ class Relaxation:
         self.time = 1e300 if math.isinf(time) else time
         self.arrays = arrays = kernel_arrays(network)
         self.system, self.bed = kernel_system(arrays), kernel_bed(network)
-        # the bed carries without friction
-        self.bed[1] = 0.0
+        # friction of the bed holds what lies on a slope, and no pull
+        self.bed[1] *= -1.0
         self.parts = network_parts(network)
         self.plan = plan_of(network, arrays, self.parts)
         count, bars = len(network.nodes), len(network.bars)

@@ -238,6 +238,23 @@ def test_a_line_on_a_slope_is_the_catenary_that_meets_it_at_its_angle():
     assert np.abs(errors[1]).max() < 0.6 * np.abs(errors[0]).max()
 
 
+@pytest.mark.parametrize(("friction", "turn"), [(0.0, 0.0), (0.1, 0.7), (0.1, 2.0), (0.5, 4.0)])
+def test_friction_holds_what_lies_on_a_slope_as_far_as_it_reaches(friction, turn):
+    """A chain that hangs down the slope from its upper end: w L (sin a - mu cos a) there, nothing on gentler slopes."""
+    slope, length, segments = 0.2, 40.0, 20
+    way = np.array([math.cos(turn), math.sin(turn)])
+    builder = NetworkBuilder(AIR, Bed.on(plane_ground(-20.0, tuple(slope * way), 500.0), 1e7, 0.0, friction))
+    angle, weight = math.atan(slope), 50.0 * 9.81
+    down = -length * math.cos(angle) * way
+    builder.fixed("top", (0.0, 0.0, -20.0))
+    builder.free("low", (*down, -20.0 - length * math.sin(angle)))
+    builder.line("line", "top", "low", CHAIN, length=length, segments=segments)
+    rest = solve_equilibrium(builder.build())
+    pull = weight * length * (1.0 - 0.5 / segments) * (math.sin(angle) - min(friction, slope) * math.cos(angle))
+    assert rest.residual < 1e-6
+    assert rest.tension[0] == pytest.approx(pull, rel=2e-3, abs=1e-3 * weight * length)
+
+
 def hump(x):
     return -30.0 + 6.0 * np.exp(-((x - 20.0) ** 2) / 80.0)
 
