@@ -43,7 +43,7 @@ def random_curtain(rng, toe="free"):
     )
 
 
-def load_of(curtain, speed):
+def load_of(curtain, speed, along=0.0):
     site = CurtainSite(WATER, lambda value: uniform(value, 0.0), 0.0, 0.0, 0.5)
     return steady_load(
         curtain,
@@ -52,6 +52,7 @@ def load_of(curtain, speed):
         toe_range=(0.9, 1.1),
         passing_fraction=0.5,
         surface_speed=speed,
+        along_speed=along,
     )
 
 
@@ -159,3 +160,19 @@ def test_cable_of_the_plan_is_bounded_by_the_closed_form():
         line = steady.governing.quantity("line_load")
         closed = float(solve_cable(curtain.span, curtain.length, line, curtain.axial_stiffness).tension)
         assert steady.governing.quantity("cable_tension") >= closed * (1.0 - 1e-6)
+
+
+def test_friction_along_the_span_goes_into_the_upper_ends_of_cable_and_anchors():
+    """Half of it at either end of the cable, all of it on the support between two spans, nothing on the load itself."""
+    curtain = random_curtain(np.random.default_rng(4), "free")
+    still, along = (load_of(curtain, 0.2, along=speed) for speed in (0.0, 0.5))
+    wetted = min(curtain.skirt.length, WATER.depth) * curtain.length
+    force = 0.5 * WATER.density * 0.02 * 0.5**2 * wetted
+    for name, share in (("upper_tension", 0.5), ("cable_tension", 0.5), ("end_anchor_horizontal_tension", 0.5)):
+        assert along.highest.quantity(name) == pytest.approx(still.highest.quantity(name) + share * force, rel=1e-12)
+    level = still.highest.quantity("anchor_horizontal_tension")
+    assert along.highest.quantity("anchor_horizontal_tension") == pytest.approx(np.hypot(level, force), rel=1e-12)
+    ratio = along.highest.quantity("anchor_tension") / still.highest.quantity("anchor_tension")
+    assert ratio == pytest.approx(np.hypot(level, force) / level, rel=1e-12)
+    assert along.band("line_load") == still.band("line_load")
+    assert along.governing.quantity("upper_tension") == still.governing.quantity("upper_tension")

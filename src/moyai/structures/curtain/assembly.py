@@ -93,7 +93,9 @@ class LevelCurtain:
     @cached_property
     def steady(self) -> SteadyLoad:
         """The governing steady load in the current of the case, with its band."""
-        surface = self.site.current(self.surface_speed).component(np.zeros(1), self.curtain.normal)
+        current = self.site.current(self.surface_speed)
+        surface = current.component(np.zeros(1), self.curtain.normal)
+        along = current.depth_mean_squared(-self.depth, 0.0, self.curtain.normal + 0.5 * math.pi)
         hanging = self.hanging
         if self.nominal:
             return given_alone(hanging, self.statics)
@@ -109,6 +111,7 @@ class LevelCurtain:
             toe_range=self.curtain.toe_range,
             passing_fraction=self.curtain.passing_fraction,
             surface_speed=float(surface[0]),
+            along_speed=math.sqrt(along),
         )
 
     def turned(self, angle: float) -> CurtainSite:

@@ -528,7 +528,7 @@ def _wave_band(groups: Groups, load: _Load) -> Band | None:
     upper = max(whole + more, reached if math.isfinite(reached) else 0.0)
     kind, _, sea = load.words("wave_source").partition(", ")
     table = groups.get(f"/{load.level}/waves/{sea}")
-    part = "steady part: drag, weights, flow under the toe and end restraint of the skirt"
+    part = "steady part: drag, weights, flow under the toe, friction and end restraint of the skirt"
     if kind != "slack and taut cycles" or table is None:
         return Band(whole - less, upper, part) if upper > whole else None
     own = SeaCycles.of(table)

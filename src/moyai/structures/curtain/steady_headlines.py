@@ -30,9 +30,8 @@ def statics_band(statics: xr.Dataset, name: str) -> Band | None:
     ends = [f"steady_{name}_low", f"steady_{name}_high"]
     if all(end in statics for end in ends):
         low, high = (float(statics[end]) for end in ends)
-        return (
-            Band(low, high, "drag, weights, flow under the toe and end restraint of the skirt") if low < high else None
-        )
+        words = "drag, weights, flow under the toe, friction and end restraint of the skirt"
+        return Band(low, high, words) if low < high else None
     if name not in statics:
         return None
     values = statics[name].values

@@ -63,9 +63,9 @@ _NOT_JUDGED = Headline(
     condition=True,
 )  # fmt: skip
 _OTHER_DIRECTIONS = replace(
-    _NOT_JUDGED, text=f"{_NOT_JUDGED.text}, other directions of current and waves",
+    _NOT_JUDGED, text=f"{_NOT_JUDGED.text}, other directions of current and waves, other drag coefficients",
     detail="lines perpendicular to current and waves may carry several times the load of lines along them: run both "
-        "headings",
+        "headings; no band covers drag coefficients, with which loads go where drag leads: run their upper end",
 )  # fmt: skip
 #: What is said of a line without a breaking load next to lines that have one.
 NO_STRENGTH = "breaking load not given of"

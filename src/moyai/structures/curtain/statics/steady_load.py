@@ -62,6 +62,9 @@ class SteadyState:
     extra: float = 0.0
     #: Factor on every force of the statics [-].
     scale: float = 1.0
+    #: Friction of the current along one span [N], half of which either end bears; the statics have none
+    #: [eq:curtain-span-friction].
+    along: float = 0.0
 
     def quantity(self, name: str) -> float:
         """Return a number of :data:`QUANTITIES`; what the float line takes more goes with the load into the cables."""
@@ -81,18 +84,23 @@ class SteadyState:
             "toe_gap": statics.toe_gap if math.isfinite(statics.toe_gap) else math.nan,
             "float_load": carried + further,
             "float_reserve_ratio": 1.0 - (carried + further) / buoyancy,
-            "upper_tension": scale * (more * statics.plan.tension - statics.lower_tension),
+            "upper_tension": scale * (more * statics.plan.tension - statics.lower_tension) + 0.5 * self.along,
+            "cable_tension": scale * more * statics.plan.tension + 0.5 * self.along,
+            "end_anchor_horizontal_tension": scale * more * statics.end_anchor_horizontal_tension + 0.5 * self.along,
         }
         if name in plain:
             return plain[name]
         whole = {
             "span_load": sum(statics.plan.downstream_end_forces),
-            "cable_tension": statics.plan.tension,
             "anchor_horizontal_tension": statics.anchor_horizontal_tension,
-            "end_anchor_horizontal_tension": statics.end_anchor_horizontal_tension,
             "anchor_tension": statics.anchor_tension,
         }
-        return scale * more * whole[name]
+        load = scale * more * whole[name]
+        if name == "span_load":
+            return load
+        # an inner support has half a span on either side
+        level = scale * more * statics.anchor_horizontal_tension
+        return load * math.hypot(level, self.along) / level
 
 
 def _borne(statics: CurtainStatics) -> float:
@@ -259,6 +267,7 @@ def steady_load(
     toe_range: tuple[float, float],
     passing_fraction: float,
     surface_speed: float,
+    along_speed: float,
 ) -> SteadyLoad:
     """Return the governing steady load with its band.
 
@@ -274,6 +283,8 @@ def steady_load(
         Share of the held flow that goes under the toe [-].
     surface_speed : float
         Component of the current along the normal at the surface [m/s], for the drag of the floats.
+    along_speed : float
+        Root mean square over the skirt of the component along the span [m/s], for the friction there.
 
     Raises
     ------
@@ -309,6 +320,10 @@ def steady_load(
                 found[change.subject] = (beyond, change)
     afloat = float_drag(given.statics, water, surface_speed)
     causes.append(SteadyState("floats in the current, not in the model", given.statics, afloat))
+    wetted = min(curtain.skirt.length, water.depth) * curtain.length
+    along = 0.5 * water.density * SKIN_FRICTION * along_speed**2 * wetted
+    if along > 0.0:
+        causes.append(SteadyState("friction along the span, not in the model", given.statics, along=along))
     lowest = _together(curtain, solve, lower, "all that lowers the load", 0.0) or given
     highest = _together(curtain, solve, raised, "all that raises the load", afloat + unknown_law)
     if highest is None:
@@ -317,6 +332,7 @@ def steady_load(
         scale = 1.0 + total / middle
         highest = SteadyState("all that raises the load, added", given.statics, afloat + unknown_law, scale)
         left_out.append("all that raises the load has no common equilibrium: the increases are added")
+    highest = replace(highest, along=along)
     return SteadyLoad(given, tuple(causes), lowest, highest, bound, tuple(left_out))
 
 
