@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Sequence
 from dataclasses import replace
 
 import numpy as np
@@ -12,6 +13,7 @@ from moyai.core.validity import Notice
 from moyai.floating.drift import DriftedMotions
 from moyai.floating.frequency import Motions, relative_elevation
 from moyai.floating.irregular import response_statistics
+from moyai.mooring.lines import LineElement, SpringLine
 from moyai.structures.breakwater.assembly import FloatingUnit
 from moyai.structures.breakwater.hydrodynamics import wavelengths
 
@@ -86,33 +88,34 @@ def anchor_loads(unit: FloatingUnit, position: Array, tension: Array) -> tuple[A
     )
 
 
-def snap_notices(where: str, names: list[str], largest: Array, mean: Array) -> tuple[Notice, ...]:
+def snap_notices(where: str, lines: Sequence[LineElement], largest: Array, mean: Array) -> tuple[Notice, ...]:
     """Warn of lines whose largest tension leaves the mean far behind: they go taut, and are taken to be at rest.
+
+    Springs have no drag, no inertia and no shock of their own.
 
     Parameters
     ----------
     where : str
         Level and sea.
-    names : list of str
-        Lines.
+    lines : sequence of LineElement
     largest, mean : ndarray (..., lines)
         Tensions [N]; the worst over the leading axes counts.
     """
-    if not names or not np.size(largest):
+    if not lines or not np.size(largest):
         return ()
-    ratio = np.where(mean > 0.0, largest / np.where(mean > 0.0, mean, 1.0), 0.0).reshape(-1, len(names))
+    ratio = np.where(mean > 0.0, largest / np.where(mean > 0.0, mean, 1.0), 0.0).reshape(-1, len(lines))
     worst = np.nan_to_num(ratio).max(axis=0)
     return tuple(
         Notice(
             "quasi-static-snap",
-            f"{where}: line {name} reaches {value:.1f} times its mean tension; lines are at rest at every instant, "
+            f"{where}: line {line.name} reaches {value:.1f} times its mean tension; lines are at rest at every instant, "
             "so that drag, inertia and the shock of a line going taut are not in this peak",
             value=float(value),
             limit=SNAP_RATIO,
             remedy="slacken or lengthen the line, or take the peak as a lower bound and use a dynamic line model",
         )
-        for name, value in zip(names, worst)
-        if value > SNAP_RATIO
+        for line, value in zip(lines, worst)
+        if value > SNAP_RATIO and not isinstance(line, SpringLine)
     )
 
 

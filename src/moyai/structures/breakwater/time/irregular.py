@@ -357,10 +357,10 @@ def _notices(shared: _Sea, data: xr.Dataset, frequency: xr.Dataset, moved: NDArr
     where = f"{unit.name}, {sea.name}"
     if "line_tension_maximum" in data and len(unit.lines):
         kept = lines_at_rest(unit) & ~moved
-        names = [line.name for line, rests in zip(unit.lines, kept, strict=True) if rests]
+        still = [line for line, rests in zip(unit.lines, kept, strict=True) if rests]
         largest = data.line_tension_maximum_of_realisation.values[:, kept]
         mean = np.broadcast_to(data.line_tension_mean.values[kept], largest.shape)
-        out.extend(snap_notices(f"{where}, time domain", names, largest, mean))
+        out.extend(snap_notices(f"{where}, time domain", still, largest, mean))
     waves = sea.duration / shared.peak_period
     if waves < LEAST_WAVES:
         out.append(

@@ -158,12 +158,11 @@ def regular_sea(
     coords = {"period": done, "dof": list(MODES), "line": [line.name for line in unit.lines], "harmonic": list(HIGHER)}
     data = xr.Dataset(out, coords=coords)
     if len(done):
-        names_of_lines = [line.name for line in unit.lines]
         where = f"{unit.name}, {sea.name}, time domain"
         # Peaks of lines in motion are none of lines at rest
         still = np.array(rows["lines_in_motion"]) == 0.0
         largest_at_rest = np.where(still, np.array(rows["line_tension_maximum"]), 0.0)
-        notices.extend(snap_notices(where, names_of_lines, largest_at_rest, np.array(rows["line_tension_mean"])))
+        notices.extend(snap_notices(where, unit.lines, largest_at_rest, np.array(rows["line_tension_mean"])))
     notices.extend(_created_energy(data, f"{unit.name}, {sea.name}"))
     data.attrs |= {"kind": "regular", "height": sea.height, "heading": sea.heading, "status": status}
     checks = energy_checks(energies, f"{unit.name}, {sea.name}")
