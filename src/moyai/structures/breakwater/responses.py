@@ -108,8 +108,8 @@ def snap_notices(where: str, lines: Sequence[LineElement], largest: Array, mean:
     return tuple(
         Notice(
             "quasi-static-snap",
-            f"{where}: line {line.name} reaches {value:.1f} times its mean tension; lines are at rest at every instant, "
-            "so that drag, inertia and the shock of a line going taut are not in this peak",
+            f"{where}: line {line.name} reaches {value:.1f} times its mean tension; lines are at rest at every "
+            "instant, so that drag, inertia and the shock of a line going taut are not in this peak",
             value=float(value),
             limit=SNAP_RATIO,
             remedy="slacken or lengthen the line, or take the peak as a lower bound and use a dynamic line model",
