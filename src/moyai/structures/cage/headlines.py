@@ -81,8 +81,8 @@ def flexible_headlines(problem: FlexibleCageProblem, groups: Groups) -> tuple[He
         *_net(states, runs, factors),
         *_stress(states, runs, factors),
     ]
-    named = [_OTHER_DIRECTIONS] if runs else []
-    return (*items, *condition_headlines(groups), *named)
+    named = [_OTHER_DIRECTIONS] if runs else [NOT_JUDGED]
+    return (*items, *condition_headlines(groups), *(named if items else []))
 
 
 @checks_words

@@ -54,9 +54,10 @@ _STEADY_NAMES = {
     "anchor line": "anchor_tension", "anchor": "anchor_horizontal_tension",
 }  # fmt: skip
 _NOT_JUDGED = Headline(
-    "not_judged", "Not judged", math.nan, "1", text="wear and fatigue, one line lost, seams and eyelets",
+    "not_judged", "Not judged", math.nan, "1", text="wear and fatigue, one line lost, seams and eyelets, scour",
     detail="ageing, fouling and fatigue of the sheet and its ropes, a curtain with one anchor line lost, stress at "
-    "seams and eyelets, and the holding of an anchor in its soil are not computed",
+    "seams and eyelets, the holding of an anchor in its soil, and what the water under the toe does to the bed are not "
+    "computed",
 )  # fmt: skip
 #: Key for more realisations.
 _MORE = "settings.waves.realisations"
