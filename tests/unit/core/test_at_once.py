@@ -151,7 +151,7 @@ def test_finer_runs_and_runs_under_other_laws_are_those_on_one_core(monkeypatch:
     changes = {
         "network": ((r"  # duration: 2 min", "  duration: 14 s"), (r"skip: 30 s", "skip: 6 s")),
         "cage": (
-            (r"mesh: \{around: 32, down: 6, bottom: 4\}", "mesh: {around: 12, down: 2, bottom: 1}"),
+            (r"mesh: \{around: 32, down: 6, bottom: 4\}", "mesh: {around: 16, down: 2, bottom: 1}"),
             (r"^analyses: \[.*?\]", "analyses: [time]"),
         ),
     }

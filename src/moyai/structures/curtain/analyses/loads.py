@@ -197,7 +197,7 @@ def _table(
     for number, row in enumerate(decided):
         name = str(row["component"])
         slower = [_decided(unit, other, NOT_MOVED, plate) for other in weaker.get(name, [])]
-        if row["load_bound"] == "at most" and name in sure and name != "float":
+        if slower and row["load_bound"] == "at most" and name in sure:
             alone = _decided(unit, sure[name], NOT_MOVED, roles)
             slower.append(alone | {"impact_source": alone["wave_source"] or "in the current alone"})
         most = [_decided(unit, other, NOT_MOVED, bound) for other in bounds.get(name, [])]
