@@ -134,10 +134,11 @@ def block_energy(nodes: Any, frames: Any, added: Any, V: Any, v0: int, axis: int
             c, s, r = frames[g, i, COS], frames[g, i, SIN], frames[g, i, ROOT]
             w[i], w[count + i] = r * (s * V[at] - c * V[at + axis]), r * V[at + 2 * axis]
         for i in range(2 * count):
-            row = 0.0
-            for j in range(2 * count):
+            # the matrix is symmetric: its lower half is all of it
+            row = 0.5 * added[g, i, i] * w[i]
+            for j in range(i):
                 row += added[g, i, j] * w[j]
-            total += 0.5 * row * w[i]
+            total += row * w[i]
     return total
 
 
