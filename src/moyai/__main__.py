@@ -13,6 +13,7 @@ def main() -> None:
 
         run()
     except KeyboardInterrupt:
+        ignore()
         sys.exit("interrupted")
     finally:
         ignore()

@@ -51,7 +51,7 @@ from moyai.cli.reproduce import reproduce
 from moyai.cli.scale import scale
 from moyai.cli.study import study
 from moyai.core.errors import Fault
-from moyai.core.interrupts import held_back, listen
+from moyai.core.interrupts import held_back, ignore, listen
 from moyai.core.version import VERSION
 from moyai.core.wording import counted
 from moyai.language import said, speak
@@ -345,7 +345,10 @@ def _written(
             if report:
                 document, pages = _report(result, staged, others, pdf=pdf, quiet=quiet)
                 files += pages
-            files = put_in_place(staged, folder, files)
+            with held_back():
+                files = put_in_place(staged, folder, files)
+                # what comes from here on changes nothing of the results
+                ignore()
     except KeyboardInterrupt:
         place = folder / RESULTS
         fault = Fault(f"interrupted while results were written; {place} is complete")

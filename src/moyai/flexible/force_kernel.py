@@ -351,9 +351,15 @@ def _add_ground(x: Any, bed: Any, node_law: Any, i: int, by_place: float, exact:
     """Add the stiffness of a bed that varies to the block of one node [eq:flexible-ground]."""
     n, turn = np.empty(3), np.empty(6)
     _, n[0], n[1], n[2] = ground(bed, x[i, 0], x[i, 1])
-    # what friction holds is pushed upwards wherever it goes
-    push = 0.0 if bed[1] < 0.0 else by_place * node_law[3, i]
-    curving(ground_shape(bed, x[i, 0], x[i, 1]), push, exact, turn)
+    if bed[1] < 0.0:
+        # what friction holds is pushed upwards wherever it goes, by its depth along the normal
+        ex, ey, ez = held(bed, n[0], n[1], n[2])
+        for q in range(3):
+            block[0, q] += node_law[0, i] * ex * n[q]
+            block[1, q] += node_law[0, i] * ey * n[q]
+            block[2, q] += node_law[0, i] * ez * n[q]
+        return
+    curving(ground_shape(bed, x[i, 0], x[i, 1]), by_place * node_law[3, i], exact, turn)
     row = 0
     for p in range(3):
         for q in range(p, 3):

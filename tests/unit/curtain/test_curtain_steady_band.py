@@ -176,3 +176,11 @@ def test_friction_along_the_span_goes_into_the_upper_ends_of_cable_and_anchors()
     assert ratio == pytest.approx(np.hypot(level, force) / level, rel=1e-12)
     assert along.band("line_load") == still.band("line_load")
     assert along.governing.quantity("upper_tension") == still.governing.quantity("upper_tension")
+
+
+def test_two_cables_share_the_friction_along_the_span():
+    curtain = random_curtain(np.random.default_rng(4), "held")
+    still, along = (load_of(curtain, 0.2, along=speed).highest for speed in (0.0, 0.5))
+    more = {name: along.quantity(name) - still.quantity(name) for name in ("upper_tension", "lower_tension")}
+    assert more["lower_tension"] == pytest.approx(0.25 * along.along, rel=1e-9)
+    assert more["upper_tension"] == pytest.approx(more["lower_tension"], rel=1e-9)

@@ -255,6 +255,22 @@ def test_friction_holds_what_lies_on_a_slope_as_far_as_it_reaches(friction, turn
     assert rest.tension[0] == pytest.approx(pull, rel=2e-3, abs=1e-3 * weight * length)
 
 
+@pytest.mark.parametrize("turn", [0.0, 90.0, 180.0, 217.0])
+def test_a_slack_chain_hangs_from_its_upper_end_whichever_way_the_bed_rises(turn):
+    """Longer than its way: what hangs is as long as its upper end is high over the bed, the rest lies where it is."""
+    way = np.array([math.cos(math.radians(turn)), math.sin(math.radians(turn))])
+    bed = Bed.on(plane_ground(-30.0, tuple(0.2 * way), 500.0), 3e5, 0.0, 0.4)
+    builder = NetworkBuilder(AIR, bed)
+    builder.fixed("anchor", (0.0, 0.0, -30.0))
+    builder.fixed("top", (40.0, 0.0, -1.0))
+    chain = BarType("chain", 50.0, 1.3e8, 0.1, viscosity=1e5)
+    builder.line("line", "anchor", "top", chain, length=80.0, segments=80)
+    rest = solve_equilibrium(builder.build())
+    assert rest.residual < 1e-6
+    hanging = 29.0 - 0.2 * 40.0 * way[0]
+    assert rest.tension[-1] == pytest.approx(50.0 * 9.81 * (hanging - 0.5), abs=1.0 * 50.0 * 9.81)
+
+
 def hump(x):
     return -30.0 + 6.0 * np.exp(-((x - 20.0) ** 2) / 80.0)
 

@@ -166,7 +166,7 @@ def regular_sea(
     notices.extend(_created_energy(data, f"{unit.name}, {sea.name}"))
     data.attrs |= {"kind": "regular", "height": sea.height, "heading": sea.heading, "status": status}
     checks = energy_checks(energies, f"{unit.name}, {sea.name}")
-    if all(isinstance(line, SpringLine) for line in unit.lines):
+    if unit.lines and all(isinstance(line, SpringLine) for line in unit.lines):
         checks, said = of_springs(checks)
         notices.extend(said)
     return TimeResult(labelled(data), tuple(runs), tuple(notices), status, checks)

@@ -76,15 +76,17 @@ class SteadyState:
         carried = buoyancy - statics.float_reserve
         further = pull_of_lines(statics.curtain, scale * more * statics.anchor_horizontal_tension)
         further -= pull_of_lines(statics.curtain, statics.anchor_horizontal_tension)
+        # a sheet between two cables hands each of them half of its friction
+        lower = 0.25 * self.along if statics.lower_tension > 0.0 else 0.0
         plain = {
             "line_load": scale * section.load + self.extra,
             "sheet_tension": scale * section.sheet_tension,
-            "lower_tension": scale * statics.lower_tension,
+            "lower_tension": scale * statics.lower_tension + lower,
             "effective_depth": section.effective_depth,
             "toe_gap": statics.toe_gap if math.isfinite(statics.toe_gap) else math.nan,
             "float_load": carried + further,
             "float_reserve_ratio": 1.0 - (carried + further) / buoyancy,
-            "upper_tension": scale * (more * statics.plan.tension - statics.lower_tension) + 0.5 * self.along,
+            "upper_tension": scale * (more * statics.plan.tension - statics.lower_tension) + 0.5 * self.along - lower,
             "cable_tension": scale * more * statics.plan.tension + 0.5 * self.along,
             "end_anchor_horizontal_tension": scale * more * statics.end_anchor_horizontal_tension + 0.5 * self.along,
         }
