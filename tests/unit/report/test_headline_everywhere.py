@@ -98,7 +98,7 @@ JOURNEYS = {
     ),
     "cage": Journey(
         (
-            (r"mesh: \{around: 32, down: 6, bottom: 4\}", "mesh: {around: 12, down: 2, bottom: 1}"),
+            (r"mesh: \{around: 32, down: 6, bottom: 4\}", "mesh: {around: 16, down: 2, bottom: 1}"),
             (r"current_speeds: \[.*?\]", "current_speeds: [0.75 m/s]"),
             (r"^analyses: \[.*?\]", "analyses: [statics]"),
         ),
