@@ -337,7 +337,7 @@ def _written(
     """Write results and report, and put them in place; results that are complete stay where it is interrupted."""
     from moyai.core.run_folder import RESULTS, keeping_results, put_in_place
 
-    document = None
+    document, files = None, list[Path]()
     try:
         with keeping_results(staged, folder):
             with held_back():
@@ -350,6 +350,8 @@ def _written(
                 # what comes from here on changes nothing of the results
                 ignore()
     except KeyboardInterrupt:
+        if not files:
+            raise
         place = folder / RESULTS
         fault = Fault(f"interrupted while results were written; {place} is complete")
         if report:

@@ -166,3 +166,21 @@ def kernel_arrays(network: Network) -> KernelArrays:
 def kernel_bed(network: Network, fade: float = 1e-5) -> Array:
     """Return the bed as the kernels take it; ``fade`` is the speed below which friction fades [m/s]."""
     return np.array([0.0, 0.0, 1.0, 0.0]) if network.bed is None else network.bed.numbers(fade)
+
+
+#: Of the four levels of a grid of two lines either way.
+_TWIST = np.array([1.0, -1.0, -1.0, 1.0])
+
+
+def bed_at_rest(network: Network) -> Array:
+    """Return the bed as the kernels of statics take it: friction holds what lies on a plane slope [eq:flexible-held].
+
+    Over a bed that bends friction would also count what a taut line presses onto it, with a sign that only its way
+    there decides: there is none.
+    """
+    bed = kernel_bed(network)
+    ground = None if network.bed is None else network.bed.ground
+    # a grid of two lines either way may be twisted
+    plane = ground is not None and ground.level.shape == (2, 2) and abs(float(_TWIST @ ground.level.ravel())) < 1e-9
+    bed[1] = -bed[1] if plane else 0.0
+    return bed

@@ -8,7 +8,7 @@ import numpy as np
 
 from moyai.core.errors import ConvergenceError
 from moyai.core.progress import Progress, silent
-from moyai.flexible.arrays import kernel_bed
+from moyai.flexible.arrays import bed_at_rest
 from moyai.flexible.dynamic_relaxation_kernel import relax
 from moyai.flexible.explicit import ExplicitRun
 from moyai.flexible.explicit_rows import PULL, WU
@@ -67,8 +67,7 @@ def relax_network(
     packed, arrays = run.packed, run.arrays
     bare = _masses(run)
     pace = np.zeros((3, len(network.nodes)))
-    bed = kernel_bed(network)
-    bed[1] *= -1.0
+    bed = bed_at_rest(network)
     fluid = np.array([network.water.density, network.water.gravity])
     done, left, worst, reference = 0, math.inf, 0, 1.0
     while done < most_steps:

@@ -16,7 +16,7 @@ import numpy as np
 from moyai.core.arrays import Array
 from moyai.core.remembered import Remembered, key_of_objects
 from moyai.flexible import equilibrium_kernel, force_kernel, front_kernel
-from moyai.flexible.arrays import KernelArrays, kernel_arrays, kernel_bed
+from moyai.flexible.arrays import KernelArrays, bed_at_rest, kernel_arrays
 from moyai.flexible.flow import Flow
 from moyai.flexible.network import Network
 from moyai.flexible.parts import Part, network_parts
@@ -91,9 +91,7 @@ class Relaxation:
         self.network, self.flow = network, flow
         self.time = 1e300 if math.isinf(time) else time
         self.arrays = arrays = kernel_arrays(network)
-        self.system, self.bed = kernel_system(arrays), kernel_bed(network)
-        # friction of the bed holds what lies on a slope, and no pull
-        self.bed[1] *= -1.0
+        self.system, self.bed = kernel_system(arrays), bed_at_rest(network)
         self.parts = network_parts(network)
         self.plan = plan_of(network, arrays, self.parts)
         count, bars = len(network.nodes), len(network.bars)

@@ -273,12 +273,12 @@ def sheet_loads(
     for t in range(triangles.shape[0]):
         i, j, k = triangles[t, 0] * node, triangles[t, 1] * node, triangles[t, 2] * node
         x, y, z = P[p0 + i], P[p0 + i + axis], P[p0 + i + up]
-        one, two = P[p0 + j + up], P[p0 + k + up]
-        wet = wet_share(z - W[w0 + i + 3 * up], one - W[w0 + j + 3 * up], two - W[w0 + k + 3 * up])
+        second, third = P[p0 + j + up], P[p0 + k + up]
+        wet = wet_share(z - W[w0 + i + 3 * up], second - W[w0 + j + 3 * up], third - W[w0 + k + 3 * up])
         if wet == 0.0:
             continue
-        px, py, pz = P[p0 + j] - x, P[p0 + j + axis] - y, one - z
-        rx, ry, rz = P[p0 + k] - x, P[p0 + k + axis] - y, two - z
+        px, py, pz = P[p0 + j] - x, P[p0 + j + axis] - y, second - z
+        rx, ry, rz = P[p0 + k] - x, P[p0 + k + axis] - y, third - z
         nx, ny, nz = py * rz - pz * ry, pz * rx - px * rz, px * ry - py * rx
         size = math.sqrt(nx * nx + ny * ny + nz * nz)
         per = 1.0 / size if size > 0.0 else 0.0

@@ -1,6 +1,7 @@
 """A bed that varies: its surface, its contact against closed forms and turned axes, lines on it at rest."""
 
 import math
+from dataclasses import replace
 
 import numpy as np
 import pytest
@@ -292,6 +293,13 @@ def test_tensions_over_a_hump_settle_with_the_grid():
     away = np.abs(np.array(tops[:-1]) - tops[-1])
     assert away[1] < 0.5 * away[0]
     assert away[2] < 0.5 * away[1]
+
+
+def test_friction_takes_nothing_off_a_taut_line_over_a_hump():
+    """It would act on what the line presses onto the hump, and its sign is that of a way that statics do not know."""
+    network = over_the_hump(21, 40)
+    rough = replace(network, bed=replace(network.bed, friction=0.5))
+    assert np.array_equal(solve_equilibrium(rough).tension, solve_equilibrium(network).tension)
 
 
 def test_tension_and_strain_energy_over_a_hump_follow_the_height():

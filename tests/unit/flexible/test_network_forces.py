@@ -8,14 +8,14 @@ import pytest
 from networks_for_tests import NO_GRAVITY, random_network, rope, still
 
 from moyai.flexible import explicit_forces, explicit_motion, explicit_rows, force_kernel, front_kernel
-from moyai.flexible.arrays import kernel_arrays
+from moyai.flexible.arrays import kernel_arrays, kernel_bed
 from moyai.flexible.elements import Bars, BarType, Nodes
 from moyai.flexible.explicit import ExplicitRun
 from moyai.flexible.flow import Flow
 from moyai.flexible.implicit import ImplicitRun
 from moyai.flexible.network import Network
 from moyai.flexible.refine import with_viscosity
-from moyai.flexible.relaxation import kernel_bed, kernel_system, plan_of
+from moyai.flexible.relaxation import kernel_system, plan_of
 from moyai.flexible.result import State
 from moyai.flexible.simulation import simulate
 from moyai.flexible.sparse import make_plan

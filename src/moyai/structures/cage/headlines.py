@@ -130,7 +130,7 @@ def _with_mesh(item: Headline, factors: Factors) -> Headline:
     if item.name != "net_tension" or more <= 1.0 + _GROWTH:
         return item
     # what a weight or a rope brings in at a knot goes over the width of the mesh there: a finer one has no limit
-    grows = "grows with finer meshes at weights and ropes; ropes sewn into the net are judged apart"
+    grows = "grows with finer meshes at weights and ropes"
     return replace(item, bound="at least", detail="; ".join(filter(None, (item.detail, grows))))
 
 
