@@ -81,10 +81,13 @@ def code_criterion(given: Any, analysis: str, names: Iterable[str | None], *, as
         if value is None:
             raise _no_value(name, rules, chosen, material)
         found.append((value, material if judged_as == material else f"{material} judged as {judged_as}"))
-    (limit, weight, used, words), material = min(found, key=lambda item: item[0][0])
+    (limit, weight, used, words), _ = min(found, key=lambda item: item[0][0])
+    strictest = [made_of for value, made_of in found if value[0] == limit]
+    # a rule for whatever a line is made of says nothing of materials
+    material = "" if all(rule.component == "any" for rule in used) else f", {' or '.join(strictest)}"
     sure = all(rule.confirmed for rule in used) or bool(block and name in block.confirmed)
     doubt = "" if sure else f", {UNCONFIRMED}"
-    said = f"{name} ({used[0].edition}), {words}, {material}, {chosen.replace('_', '-')} analysis{doubt}"
+    said = f"{name} ({used[0].edition}), {words}{material}, {chosen.replace('_', '-')} analysis{doubt}"
     return Criterion(
         "line_safety_factor" if assumed else "code",
         "line_utilisation",

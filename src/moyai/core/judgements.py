@@ -168,7 +168,8 @@ def _distinct(found: list[Judgement]) -> list[Judgement]:
     for item in found:
         for place, other in enumerate(kept):
             same = (item.outcome, item.bound, item.judged_on) == (other.outcome, other.bound, other.judged_on)
-            close = math.isclose(item.value, other.value, rel_tol=1e-3)
+            unknown = math.isnan(item.value) and math.isnan(other.value) and item.reason == other.reason
+            close = unknown or math.isclose(item.value, other.value, rel_tol=1e-3)
             if same and (close or item.outcome != "not judged"):
                 if not close and _worse(item, other):
                     kept[place] = item

@@ -156,3 +156,12 @@ def test_a_default_code_judges_a_material_that_it_does_not_know_as_its_strictest
     assert "wire judged as rope" in unknown.source
     with pytest.raises(InputError, match="no value for a wire"):
         code_criterion("NS 9415", "dynamic", ["wire"])
+
+
+def test_a_code_names_the_materials_that_its_factor_is_for():
+    """None where it is for any; all that share the strictest where a line does not say what it is made of."""
+    for names in (["studless_chain_R3"], [None], ["polyester_rope", "studless_chain_R3"]):
+        assert code_criterion("ISO 19901-7", "dynamic", names).source == (
+            "ISO 19901-7 (2013), factor 1.67 on the breaking load, dynamic analysis, not confirmed against the standard"
+        )
+    assert ", rope, dynamic" in code_criterion("NS 9415", "dynamic", ["rope"]).source

@@ -280,3 +280,9 @@ def test_the_worst_of_the_lines_that_fail_have_rows() -> None:
     rows = judge([shown, *uses], [limit], computed=True).judgements
     assert [item.reason for item in rows[:3]] == ["line 20, storm", "line 19, storm", "line 18, storm"]
     assert len(rows) == 9
+
+
+def test_what_is_not_known_for_the_same_reason_has_one_row() -> None:
+    unknown = [transmission(math.nan, text=text) for text in ("hulls meet", "hulls meet", "no sea", "hulls meet")]
+    verdict = judge(unknown, [MOST], computed=True)
+    assert [item.reason for item in verdict.judgements] == ["hulls meet", "no sea"]
