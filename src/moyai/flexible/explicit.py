@@ -9,6 +9,7 @@ from typing import Any
 import numpy as np
 
 from moyai.core.arrays import Array
+from moyai.flexible import sheet_kernel, sheet_lanes
 from moyai.flexible.arrays import kernel_arrays, kernel_bed
 from moyai.flexible.elements import DRIVEN
 from moyai.flexible.explicit_kernel import march, survey
@@ -17,6 +18,7 @@ from moyai.flexible.explicit_parts import kick_sections
 from moyai.flexible.explicit_rows import FASTEST, FASTEST_ATTACHED, LEDGER, LENGTH, SPRING, VISCOUS, WU, U, X
 from moyai.flexible.failures import Failing
 from moyai.flexible.flow import Flow
+from moyai.flexible.mass_block_kernel import room_for
 from moyai.flexible.mass_blocks import pack_blocks
 from moyai.flexible.motion import Motion
 from moyai.flexible.network import Network
@@ -158,13 +160,19 @@ class ExplicitRun:
         whole = network.blocks is not None and network.blocks.convective
         blocks = (
             packed.nodes, packed.guides, packed.frames, packed.added, packed.inverse, packed.along,
-            own[packed.nodes], whole, packed.light,
+            own[packed.nodes], whole, packed.light, room_for(packed.nodes),
         )  # fmt: skip
         sheets = network.sheets
         count = 0 if sheets is None else len(sheets)
-        table = np.zeros((0, 1)) if sheets is None else sheets.constants(network.water, network.nodes.position)
+        table = (
+            np.zeros((0, sheet_kernel.COLUMNS))
+            if sheets is None
+            else sheets.constants(network.water, network.nodes.position)
+        )
         triangles = np.zeros((0, 3), dtype=np.int64) if sheets is None else sheets.triangles.copy()
-        return (table, triangles, packed.light, np.zeros(1), np.zeros(count)), blocks
+        room = np.zeros(sheet_lanes.ROWS * sheet_lanes.LANES), np.zeros(sheet_lanes.LANES, dtype=np.int64)
+        side_by_side = (sheet_lanes.packed_constants(table), *room)
+        return (table, triangles, packed.light, np.zeros(1), np.zeros(count), *side_by_side), blocks
 
     def _parts(self) -> tuple[Any, Any, Any, Any]:
         network, count, rings = self.network, len(self.network.nodes), self.rings

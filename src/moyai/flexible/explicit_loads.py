@@ -90,7 +90,8 @@ from moyai.flexible.explicit_rows import (
     Z,
 )
 from moyai.flexible.explicit_types import Sheets
-from moyai.flexible.sheet_kernel import sheet_added_mass, sheet_loads
+from moyai.flexible.sheet_kernel import sheet_added_mass
+from moyai.flexible.sheet_lanes import sheet_loads
 
 
 @njit(cache=True, error_model="numpy", fastmath=FAST)
@@ -273,8 +274,8 @@ def add_sheet_loads(A: Array, sheets: Sheets, ahead: float) -> None:
     """Add the loads of the water on sheets and their added mass; see :mod:`moyai.flexible.explicit_parts`."""
     if sheets is None:
         return
-    table, triangles, light, gauge, _ = sheets
-    gauge[0] = sheet_loads(table, triangles, A, X, A, U, A, WU, A, QX, 1, ROW, light, ahead)
+    table, triangles, light, gauge, _, packed, room, _ = sheets
+    gauge[0] = sheet_loads(A, triangles, packed, room, light, ahead)
     sheet_added_mass(table, triangles, A, X, 1, ROW, A, WU, 1, ROW, A, MXX, 1, ROW)
 
 

@@ -4,8 +4,9 @@ A network without one of them has ``None`` in its place. The compiler then leave
 a mooring line does not wait for those of sheets and nets.
 
 Panels are (their system, matrices and velocities (12, n)); rings are (their system, moments, room for forces (3, n));
-sheets are (constants, triangles, rows of the light side (4, n), rate of drag (1), highest stress); blocks are (nodes,
-guides, frames, added, inverse, along, own mass, whether convective, rows of the light side).
+sheets are (constants, triangles, rows of the light side (4, n), rate of drag (1), highest stress, the constants block
+by block, room for a block and its triangles); blocks are (nodes, guides, frames, added, inverse, along, own mass,
+whether convective, rows of the light side, room).
 """
 
 from __future__ import annotations
@@ -14,7 +15,7 @@ from typing import Any
 
 import numpy as np
 
-from moyai.core.arrays import Array
+from moyai.core.arrays import PLAIN, Array
 from moyai.core.compiled import njit
 from moyai.flexible.explicit_loads import invert_blocks
 from moyai.flexible.explicit_rows import (
@@ -50,7 +51,8 @@ from moyai.flexible.explicit_types import Blocks, Panels, Rings, Sheets
 from moyai.flexible.mass_block_kernel import STALE, block_energy, block_loads, kick_blocks, refresh_inverse, set_frames
 from moyai.flexible.panel_kernel import screen_loads
 from moyai.flexible.ring_kernel import ring_loads
-from moyai.flexible.sheet_kernel import PRESSURE, pressure_forces, sheet_energy, sheet_forces
+from moyai.flexible.sheet_kernel import PRESSURE, pressure_forces, sheet_energy
+from moyai.flexible.sheet_lanes import sheet_forces
 
 
 @njit(cache=True, error_model="numpy")
@@ -61,14 +63,14 @@ def kick_sections(A: Array, blocks: Blocks, push: float, level: float) -> None:
     """
     if blocks is None:
         return
-    nodes, _, frames, _, inverse, along, own, _, _ = blocks
+    nodes, _, frames, _, inverse, along, own, _, _, room = blocks
     for g in range(nodes.shape[0]):
         for i in range(nodes.shape[1]):
-            node = nodes[g, i]
+            node = nodes[g, i] & PLAIN
             for axis in range(3):
                 row = axis * ROW + node
                 A[QX + row] = A[TX + row] + A[FX + row] - A[FX + row - 1]
-    kick_blocks(nodes, frames, inverse, along, own, A, U, QX, ROW, X, push, level, STIFF, DAMP, FREE_X)
+    kick_blocks(nodes, frames, inverse, along, own, A, U, QX, ROW, X, push, level, STIFF, DAMP, FREE_X, room)
 
 
 @njit(cache=True, error_model="numpy")
@@ -76,13 +78,13 @@ def section_loads(A: Array, blocks: Blocks, moving: bool) -> None:
     """Turn the frames of dense mass blocks, add their loads, and take their nodes out of the kick of all nodes."""
     if blocks is None:
         return
-    nodes, guides, frames, added, inverse, _, own, whole, light = blocks
+    nodes, guides, frames, added, inverse, _, own, whole, light, room = blocks
     set_frames(nodes, guides, frames, A, X, ROW, whole)
-    refresh_inverse(nodes, frames, added, inverse, own, A, FREE_X, ROW, STALE)
-    block_loads(nodes, guides, frames, added, A, U, WU, QX, ROW, moving, whole)
+    refresh_inverse(nodes, frames, added, inverse, own, A, FREE_X, ROW, STALE, room)
+    block_loads(nodes, guides, frames, added, A, U, WU, QX, ROW, moving, whole, room)
     for g in range(nodes.shape[0]):
         for i in range(nodes.shape[1]):
-            node = nodes[g, i]
+            node = nodes[g, i] & PLAIN
             for row in range(6):
                 A[IXX + row * ROW + node] = 0.0
                 A[MXX + row * ROW + node] = 0.0
@@ -95,7 +97,7 @@ def section_energy(A: Array, blocks: Blocks) -> float:
     """Return the kinetic energy of the water of the blocks [J]."""
     if blocks is None:
         return 0.0
-    return block_energy(blocks[0], blocks[2], blocks[3], A, U, ROW)
+    return block_energy(blocks[0], blocks[2], blocks[3], A, U, ROW, blocks[9])
 
 
 @njit(cache=True, error_model="numpy")
@@ -175,7 +177,8 @@ def add_sheet_forces(A: Array, sheets: Sheets) -> None:
     """Add the stresses of sheets to the total of the nodes."""
     if sheets is None:
         return
-    sheet_forces(sheets[0], sheets[1], A, X, A, U, A, TX, 1, ROW, sheets[4])
+    _, triangles, _, _, peak, packed, room, which = sheets
+    sheet_forces(A, triangles, packed, room, which, peak)
 
 
 @njit(cache=True, error_model="numpy")

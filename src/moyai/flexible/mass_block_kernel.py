@@ -3,6 +3,7 @@
 Rows of the explicit scheme are addressed as ``first + node + axis * row``. Each node of a block has a frame: cosine and
 sine of the direction along the cable in plan, and the root of its present over its first length. The normal is the
 direction turned clockwise; local unknowns are the normal velocities of all nodes of a block, then the vertical ones.
+``room``, of :func:`room_for`, takes what a kernel keeps of one block at a time.
 """
 
 from __future__ import annotations
@@ -12,6 +13,7 @@ from typing import Any
 
 import numpy as np
 
+from moyai.core.arrays import PLAIN
 from moyai.core.compiled import njit
 
 #: What is known of each node of a block: cosine, sine, root of the stretch, the first length of its cable [m], and what
@@ -24,12 +26,22 @@ STALE = 0.005
 FACING = 1e-3
 
 
+#: Rows of the room before the matrix.
+_ROWS = 7
+
+
+def room_for(nodes: Any) -> Any:
+    """Return room for the kernels: rows as long as a block has unknowns, and a matrix of them."""
+    size = 2 * nodes.shape[1]
+    return np.empty((_ROWS + size, size))
+
+
 @njit(cache=True, error_model="numpy")
 def set_frames(nodes: Any, guides: Any, frames: Any, P: Any, p0: int, axis: int, stretch: bool) -> None:
     """Turn the frames with the cable, along the way from the guide before to the one behind; let them stretch."""
     for g in range(nodes.shape[0]):
         for i in range(nodes.shape[1]):
-            a, b = guides[g, i, 0], guides[g, i, 1]
+            a, b = guides[g, i, 0] & PLAIN, guides[g, i, 1] & PLAIN
             dx, dy = P[p0 + b] - P[p0 + a], P[p0 + axis + b] - P[p0 + axis + a]
             size = math.sqrt(dx * dx + dy * dy)
             if size > 0.0:
@@ -92,7 +104,7 @@ def _inverse(whole: Any, moves: Any, out: Any) -> None:
 
 @njit(cache=True, error_model="numpy")
 def refresh_inverse(
-    nodes: Any, frames: Any, added: Any, inverse: Any, own: Any, A: Any, free: int, axis: int, stale: float
+    nodes: Any, frames: Any, added: Any, inverse: Any, own: Any, A: Any, free: int, axis: int, stale: float, room: Any
 ) -> None:  # fmt: skip
     """Take the inverse of the whole mass of those sections anew in which it is out of date by more than ``stale``.
 
@@ -100,11 +112,11 @@ def refresh_inverse(
     mass counts over ``g`` squared.
     """
     count = nodes.shape[1]
-    whole, moves, share = np.empty((2 * count, 2 * count)), np.empty(2 * count), np.empty(2 * count)
+    whole, moves, share = room[_ROWS:], room[0], room[1]
     for g in range(nodes.shape[0]):
         late = False
         for i in range(count):
-            at = free + nodes[g, i]
+            at = free + (nodes[g, i] & PLAIN)
             mx, my, mz = A[at], A[at + axis], A[at + 2 * axis]
             r = frames[g, i, ROOT]
             lever = _lever(frames[g, i, COS], frames[g, i, SIN], r, mx, my)
@@ -124,13 +136,13 @@ def refresh_inverse(
 
 
 @njit(cache=True, error_model="numpy")
-def block_energy(nodes: Any, frames: Any, added: Any, V: Any, v0: int, axis: int) -> float:
+def block_energy(nodes: Any, frames: Any, added: Any, V: Any, v0: int, axis: int, room: Any) -> float:
     """Return the kinetic energy of the water of all blocks [J] [eq:flexible-block-energy]."""
     count, total = nodes.shape[1], 0.0
-    w = np.empty(2 * count)
+    w = room[0]
     for g in range(nodes.shape[0]):
         for i in range(count):
-            at = v0 + nodes[g, i]
+            at = v0 + (nodes[g, i] & PLAIN)
             c, s, r = frames[g, i, COS], frames[g, i, SIN], frames[g, i, ROOT]
             w[i], w[count + i] = r * (s * V[at] - c * V[at + axis]), r * V[at + 2 * axis]
         for i in range(2 * count):
@@ -145,7 +157,7 @@ def block_energy(nodes: Any, frames: Any, added: Any, V: Any, v0: int, axis: int
 @njit(cache=True, error_model="numpy")
 def kick_blocks(
     nodes: Any, frames: Any, inverse: Any, light: Any, own: Any, A: Any, vel: int, force: int, axis: int, place: int,
-    push: float, level: float, stiff: int, damp: int, free: int,
+    push: float, level: float, stiff: int, damp: int, free: int, room: Any,
 ) -> None:  # fmt: skip
     """Advance the velocities of the nodes of blocks by ``push`` times their force, and hold them off a smooth bed.
 
@@ -155,16 +167,17 @@ def kick_blocks(
     axis alone.
     """
     count = nodes.shape[1]
-    f, kick, rest = np.empty(2 * count), np.empty(2 * count), np.empty(2 * count)
-    lever = np.empty(count)
+    # of each node, one over its lever and over the root of its stretch
+    f, kick, rest, per, up = room[0], room[1], room[2], room[3], room[4]
     for g in range(nodes.shape[0]):
         for i in range(count):
-            at, mobile = force + nodes[g, i], free + nodes[g, i]
+            node = nodes[g, i] & PLAIN
+            at, mobile = force + node, free + node
             c, s, r = frames[g, i, COS], frames[g, i, SIN], frames[g, i, ROOT]
             mx, my = A[mobile], A[mobile + axis]
-            lever[i] = _lever(c, s, r, mx, my)
+            per[i], up[i] = 1.0 / _lever(c, s, r, mx, my), 1.0 / r
             across = s * A[at] - c * A[at + axis] if mx > 0.0 and my > 0.0 else mx * A[at] + my * A[at + axis]
-            f[i], f[count + i] = across / lever[i], A[at + 2 * axis] / r
+            f[i], f[count + i] = across * per[i], A[at + 2 * axis] * up[i]
         for i in range(2 * count):
             row = 0.0
             for j in range(2 * count):
@@ -172,9 +185,8 @@ def kick_blocks(
             kick[i] = push * row
         # what the section has stretched and turned since the inverse was taken: one step of an iteration
         for i in range(count):
-            r = frames[g, i, ROOT]
-            rest[i] = own[g, i] * (1.0 / (lever[i] * lever[i]) - frames[g, i, FLAT]) * kick[i]
-            rest[count + i] = own[g, i] * (1.0 / (r * r) - frames[g, i, UPRIGHT]) * kick[count + i]
+            rest[i] = own[g, i] * (per[i] * per[i] - frames[g, i, FLAT]) * kick[i]
+            rest[count + i] = own[g, i] * (up[i] * up[i] - frames[g, i, UPRIGHT]) * kick[count + i]
         for i in range(2 * count):
             row = 0.0
             for j in range(2 * count):
@@ -183,25 +195,24 @@ def kick_blocks(
         for i in range(2 * count):
             kick[i] -= f[i]
         for i in range(count):
-            at, to = force + nodes[g, i], vel + nodes[g, i]
-            c, s, r = frames[g, i, COS], frames[g, i, SIN], frames[g, i, ROOT]
-            mobile = free + nodes[g, i]
+            node = nodes[g, i] & PLAIN
+            at, to, mobile = force + node, vel + node, free + node
+            c, s = frames[g, i, COS], frames[g, i, SIN]
             mx, my = A[mobile], A[mobile + axis]
             if mx > 0.0 and my > 0.0:
                 along = push * light[g, i] * (c * A[at] + s * A[at + axis])
-                A[to] += s * kick[i] / r + c * along
-                A[to + axis] += s * along - c * kick[i] / r
+                A[to] += s * kick[i] * per[i] + c * along
+                A[to + axis] += s * along - c * kick[i] * per[i]
             else:
-                A[to] += mx * kick[i] / lever[i]
-                A[to + axis] += my * kick[i] / lever[i]
-            A[to + 2 * axis] += kick[count + i] / r
+                A[to] += mx * kick[i] * per[i]
+                A[to + axis] += my * kick[i] * per[i]
+            A[to + 2 * axis] += kick[count + i] * up[i]
         for i in range(count):
-            node = nodes[g, i]
+            node = nodes[g, i] & PLAIN
             depth, w = level - A[place + 2 * axis + node], A[vel + 2 * axis + node]
             if depth <= push * w:
                 continue
-            per = 1.0 / frames[g, i, ROOT]
-            share = per * per * inverse[g, count + i, count + i]
+            share = up[i] * up[i] * inverse[g, count + i, count + i]
             grip = A[stiff + node] * push + A[damp + node]
             blow = push * (A[stiff + node] * depth - grip * w) / (1.0 + push * grip * share)
             if blow <= 0.0:
@@ -210,20 +221,20 @@ def kick_blocks(
                 to, mobile = vel + nodes[g, j], free + nodes[g, j]
                 c, s = frames[g, j, COS], frames[g, j, SIN]
                 mx, my = A[mobile], A[mobile + axis]
-                turn = per * inverse[g, j, count + i] * blow / lever[j]
+                turn = up[i] * inverse[g, j, count + i] * blow * per[j]
                 if mx > 0.0 and my > 0.0:
                     A[to] += s * turn
                     A[to + axis] -= c * turn
                 else:
                     A[to] += mx * turn
                     A[to + axis] += my * turn
-                A[to + 2 * axis] += per * inverse[g, count + j, count + i] * blow / frames[g, j, ROOT]
+                A[to + 2 * axis] += up[i] * inverse[g, count + j, count + i] * blow * up[j]
 
 
 @njit(cache=True, error_model="numpy")
 def block_loads(
     nodes: Any, guides: Any, frames: Any, added: Any, A: Any, vel: int, water: int, force: int, axis: int,
-    moving: bool, whole: bool,
+    moving: bool, whole: bool, room: Any,
 ) -> None:  # fmt: skip
     """Add the forces of the water on blocks beyond added mass times acceleration of the nodes.
 
@@ -231,11 +242,10 @@ def block_loads(
     equations, so that the energy of the water is kept [eq:flexible-block-force].
     """
     count = nodes.shape[1]
-    w, e, p, q = np.empty(2 * count), np.empty(2 * count), np.empty(2 * count), np.empty(2 * count)
-    turn, grow, slide = np.empty(count), np.empty(count), np.empty(count)
+    w, e, p, q, turn, grow, slide = room[0], room[1], room[2], room[3], room[4], room[5], room[6]
     for g in range(nodes.shape[0]):
         for i in range(count):
-            node = nodes[g, i]
+            node = nodes[g, i] & PLAIN
             c, s, r = frames[g, i, COS], frames[g, i, SIN], frames[g, i, ROOT]
             at, by = vel + node, water + node
             x, y, z = A[at] - A[by], A[at + axis] - A[by + axis], A[at + 2 * axis] - A[by + 2 * axis]
@@ -243,7 +253,7 @@ def block_loads(
             w[i], w[count + i] = r * n, r * z
             e[i] = e[count + i] = 0.0
             if whole:
-                a, b = guides[g, i, 0], guides[g, i, 1]
+                a, b = guides[g, i, 0] & PLAIN, guides[g, i, 1] & PLAIN
                 size = r * r * frames[g, i, LENGTH]
                 # guides move with the relative velocity as well
                 dx = A[vel + b] - A[vel + a] - A[water + b] + A[water + a]
@@ -262,7 +272,7 @@ def block_loads(
                 two += added[g, i, j] * e[j]
             p[i], q[i] = one, two
         for i in range(count):
-            node = nodes[g, i]
+            node = nodes[g, i] & PLAIN
             c, s, r = frames[g, i, COS], frames[g, i, SIN], frames[g, i, ROOT]
             normal, along, up = r * q[i], 0.0, r * q[count + i]
             if whole:
@@ -274,7 +284,7 @@ def block_loads(
                 back = -p[i] * r * slide[i] / size
                 stretch = 0.5 * (p[i] * w[i] + p[count + i] * w[count + i]) / size
                 gx, gy = back * s + stretch * c, -back * c + stretch * s
-                a, b = force + guides[g, i, 0], force + guides[g, i, 1]
+                a, b = force + (guides[g, i, 0] & PLAIN), force + (guides[g, i, 1] & PLAIN)
                 A[b] += gx
                 A[b + axis] += gy
                 A[a] -= gx

@@ -149,7 +149,8 @@ def pack_blocks(blocks: MassBlocks | None, place: ArrayLike, mass: Array, free: 
     # in no state of the frames yet: taken at once
     inverse = np.zeros_like(blocks.added_mass)
     mobile = np.ascontiguousarray(free, dtype=np.float64).ravel()
-    kernel.refresh_inverse(blocks.nodes, frames, blocks.added_mass, inverse, own, mobile, 0, len(mass), -1.0)
+    room = kernel.room_for(blocks.nodes)
+    kernel.refresh_inverse(blocks.nodes, frames, blocks.added_mass, inverse, own, mobile, 0, len(mass), -1.0, room)
     light[1, blocks.nodes] = np.einsum("gii->gi", inverse)[:, :count]
     along = np.where(np.minimum(free[0], free[1])[blocks.nodes] > 0.0, 1.0 / own, 0.0)
     # a node that is both guides of its own turns no frame

@@ -109,11 +109,14 @@ def stress_slope(C: Any, t: int, e11: float, e22: float, shear: float, D: Any) -
             C[t, sheet.C33],
         )
     elif state == 1 and s11 + s22 > 0.0:
-        pull = s11 + s22
-        c, s = (s11 - s22) / pull, 2.0 * s12 / pull
-        half, turn = 0.5 * (e11 - e22), 0.5 * shear
-        a1, a2 = C[t, sheet.A1], C[t, sheet.A2]
-        soft, softest = C[t, sheet.A0] + c * (a1 + a2 * c), -c * (a1 + 2.0 * a2 * c) + 2.0 * a2 * s * s
+        # in stretched axes, in which both families of threads are as stiff
+        warp, weft, more = C[t, sheet.WARP], C[t, sheet.WEFT], C[t, sheet.BEND]
+        stretch = (warp, weft, math.sqrt(warp * weft))
+        first, second = s11 / warp, s22 / weft
+        pull = first + second
+        c, s = (first - second) / pull, 2.0 * s12 / stretch[2] / pull
+        half, turn = 0.5 * (warp * e11 - weft * e22), 0.5 * stretch[2] * shear
+        soft, softest = 1.0 + more * s * s, 2.0 * more * (c * c - s * s)
         rise, bend = turn * c - half * s, -half * c - turn * s
         falls = -(rise * rise / soft + pull * bend - 0.5 * pull * pull * softest)
         along = (0.5 * (1.0 + c), 0.5 * (1.0 - c), 0.5 * s)
@@ -121,9 +124,9 @@ def stress_slope(C: Any, t: int, e11: float, e22: float, shear: float, D: Any) -
         aside = (by * along[0] - 0.5 * pull * s, by * along[1] + 0.5 * pull * s, by * along[2] + 0.5 * pull * c)
         for i in range(3):
             for j in range(3):
-                D[i, j] = along[i] * along[j] / soft
+                D[i, j] = stretch[i] * stretch[j] * along[i] * along[j] / soft
                 if falls > 0.0:
-                    D[i, j] += aside[i] * aside[j] / falls
+                    D[i, j] += stretch[i] * stretch[j] * aside[i] * aside[j] / falls
     return s11, s22, s12, state
 
 

@@ -58,8 +58,8 @@ class SheetPart:
         table = self.table.copy()
         for column in (sheet.C11, sheet.C22, sheet.C12, sheet.C33):
             table[:, column] *= share
-        for column in (sheet.A0, sheet.A1, sheet.A2):
-            table[:, column] /= share
+        for column in (sheet.WARP, sheet.WEFT):
+            table[:, column] *= np.sqrt(share)
         return table
 
     def add_forces(self, x: Array, v: Array, water: Array, share: float, force: Array) -> None:

@@ -15,22 +15,23 @@ import numpy as np
 from moyai.core.compiled import njit
 
 #: Columns of the constants of triangles: inverse of the unstretched edges (2 x 2), area, stiffness C11, C12, C22, C33,
-#: compliance a0 + a1 cos + a2 cos^2 over twice the angle of the pull, damping time, law, added mass per area across,
-#: displaced mass of a third, buoyancy of a third, rho/2 Cd, rho/2 Ct, pressure, factor on the water's velocity.
-E11, E12, E21, E22, AREA, C11, C12, C22, C33, A0, A1, A2, DAMPING, LAW, ADDED, DISPLACED, LIFT, ACROSS, SKIN = range(19)
+#: roots of the stiffness along warp and weft, what bends the compliance between them, damping time, law, added mass per
+#: area across, displaced mass of a third, buoyancy of a third, rho/2 Cd, rho/2 Ct, pressure, factor on the water's
+#: velocity.
+E11, E12, E21, E22, AREA, C11, C12, C22, C33, WARP, WEFT, BEND, DAMPING, LAW, ADDED, DISPLACED, LIFT, ACROSS, SKIN = (
+    range(19)
+)
 PRESSURE = 19
 #: Unit normal as built, along which the added mass acts.
 SHARE, FACE, COLUMNS = 20, 21, 24
 #: Laws: stress also in compression; nearest tensile stress; two families of threads that only pull.
 LINEAR, FIELD, THREADS = 0.0, 1.0, 2.0
-#: Directions that are tried before Newton's method, as cosine and sine of twice their angle.
-_TRIES = 16
-_COS = np.cos(2.0 * np.pi / _TRIES * np.arange(_TRIES))
-_SIN = np.sin(2.0 * np.pi / _TRIES * np.arange(_TRIES))
 #: Of twice the area a corner has a sixth; a division takes as long as six products.
 _SIXTH = 1.0 / 6.0
-#: Tangent of half the way from one of them to the next.
-_REACH = math.tan(math.pi / _TRIES)
+#: Keeps the secular equation finite where a strain has no part along an axis.
+SMALL = 1e-30
+#: Change of its root at which Newton's next step, of the order of its square, is below rounding; steps at most.
+NEAR, MOST_STEPS = 1e-8, 60
 
 
 @njit(cache=True, error_model="numpy")
@@ -49,60 +50,39 @@ def tensile_stress(C: Any, t: int, e11: float, e22: float, shear: float) -> tupl
         s11, s22 = max(s11, 0.0), max(s22, 0.0)
         state = (1 if s11 > 0.0 else 0) + (1 if s22 > 0.0 else 0)
         return s11, s22, 0.0, 0.5 * (s11 * e11 + s22 * e22), state
-    # strain along a direction, over twice its angle p: mean + half cos p + turn sin p
-    mean, half, turn = 0.5 * (e11 + e22), 0.5 * (e11 - e22), 0.5 * shear
+    # in axes stretched so that both families of threads are as stiff, along twice an angle: mean + half cos + turn sin
+    warp, weft = C[t, WARP], C[t, WEFT]
+    both = math.sqrt(warp * weft)
+    mean, half, turn = 0.5 * (warp * e11 + weft * e22), 0.5 * (warp * e11 - weft * e22), 0.5 * both * shear
     if mean <= 0.0 and mean * mean >= half * half + turn * turn:
         return 0.0, 0.0, 0.0, 0.0, 0
-    a0, a1, a2 = C[t, A0], C[t, A1], C[t, A2]
-    c, s = 1.0, 0.0
-    if a1 == 0.0 and a2 == 0.0:
-        size = math.sqrt(half * half + turn * turn)
-        if size > 0.0:
-            c, s = half / size, turn / size
-    else:
-        best, place = -1.0, 0
-        for k in range(_TRIES):
-            along = mean + half * _COS[k] + turn * _SIN[k]
-            if along > 0.0:
-                value = along * along / (a0 + _COS[k] * (a1 + a2 * _COS[k]))
-                if value > best:
-                    best, place = value, k
-        begin, beginning = _COS[place], _SIN[place]
-        if best < 0.0:
-            # a narrow fan of stretched directions between two tries
-            size = math.sqrt(half * half + turn * turn)
-            begin, beginning = half / size, turn / size
-        c, s = begin, beginning
-        # the tangent of half the way on from there turns the direction without sines
-        way, low, high = 0.0, -_REACH, _REACH
-        for _ in range(30):
-            along, rise, bend = mean + half * c + turn * s, turn * c - half * s, -half * c - turn * s
-            soft, softer = a0 + c * (a1 + a2 * c), -s * (a1 + 2.0 * a2 * c)
-            softest = -c * (a1 + 2.0 * a2 * c) + 2.0 * a2 * s * s
-            # the derivative of along^2 / soft vanishes
-            value = 2.0 * soft * rise - softer * along
-            slope = softer * rise + 2.0 * soft * bend - softest * along
-            if value > 0.0:
-                low = way
-            else:
-                high = way
-            step = -value / slope if slope < 0.0 else 0.0
-            if slope < 0.0 and abs(step) < 1e-13:
-                break
-            new = way + 0.5 * (1.0 + way * way) * step
-            if slope >= 0.0 or not low < new < high:
-                new = 0.5 * (low + high)
-            if abs(new - way) < 1e-13:
-                break
-            way = new
-            per = 1.0 / (1.0 + way * way)
-            cosine, sine = (1.0 - way * way) * per, 2.0 * way * per
-            c, s = begin * cosine - beginning * sine, beginning * cosine + begin * sine
+    c, s = _direction(mean, half, turn, C[t, BEND])
     along = mean + half * c + turn * s
-    if along <= 0.0:
-        return 0.0, 0.0, 0.0, 0.0, 0
-    pull = along / (a0 + c * (a1 + a2 * c))
-    return 0.5 * pull * (1.0 + c), 0.5 * pull * (1.0 - c), 0.5 * pull * s, 0.5 * pull * along, 1
+    pull = along / (1.0 + C[t, BEND] * s * s)
+    return 0.5 * warp * pull * (1.0 + c), 0.5 * weft * pull * (1.0 - c), 0.5 * both * pull * s, 0.5 * pull * along, 1
+
+
+@njit(cache=True, error_model="numpy")
+def _direction(mean: float, half: float, turn: float, bend: float) -> tuple[float, float]:
+    """Return cosine and sine of twice the angle of the pull that stores most [eq:flexible-wrinkle-direction].
+
+    It lies in the quadrant of ``half`` and ``turn``. The root is approached from below, never passed.
+    """
+    small = SMALL * (abs(mean) + abs(half) + abs(turn))
+    even, odd, shift = (1.0 + bend) * abs(half) + small, abs(turn) + small, bend * mean
+    first, second, gap = (even, odd, shift) if shift >= 0.0 else (odd, even, -shift)
+    root = max(first, second - gap)
+    for _ in range(MOST_STEPS):
+        one, two = 1.0 / root, 1.0 / (root + gap)
+        x, y = first * one, second * two
+        square = x * x + y * y
+        step = square * (math.sqrt(square) - 1.0) / (x * x * one + y * y * two)
+        root += step
+        if abs(step) < NEAR * root:
+            break
+    x, y = first / root, second / (root + gap)
+    c, s = (x, y) if shift >= 0.0 else (y, x)
+    return math.copysign(c, half), math.copysign(s, turn)
 
 
 @njit(cache=True, error_model="numpy")

@@ -212,15 +212,12 @@ class Sheets:
         with np.errstate(divide="ignore", invalid="ignore"):
             rest = np.where(threads, 1.0, 1.0 - ratio**2 * weft / warp)
             both = np.where(threads, 0.0, -ratio / warp)
-            mixed = 2.0 * both + 1.0 / shear
-            bend = np.stack([0.25 * (1.0 / warp + 1.0 / weft + mixed), 0.5 * (1.0 / warp - 1.0 / weft)])
-            last = 0.25 * (1.0 / warp + 1.0 / weft - mixed)
+            mixed = np.where(threads, 1.0, np.sqrt(warp * weft) * (both + 0.5 / shear))
         table[:, kernel.C11], table[:, kernel.C22] = warp / rest, weft / rest
         table[:, kernel.C12], table[:, kernel.C33] = np.where(threads, 0.0, ratio * weft / rest), shear
-        table[:, kernel.A0], table[:, kernel.A1] = np.where(threads, 0.0, bend)
-        # rounding must not make an isotropic sheet look for its direction
-        last = np.where(np.abs(last) < 1e-12 * bend[0], 0.0, last)
-        table[:, kernel.A2] = np.where(threads, 0.0, last)
+        # of a pull between warp and weft over that along them, in stretched axes [eq:flexible-wrinkle-direction]
+        table[:, kernel.WARP], table[:, kernel.WEFT] = np.sqrt(warp), np.sqrt(weft)
+        table[:, kernel.BEND] = 0.5 * (mixed - 1.0)
         law = np.where(threads, kernel.THREADS, kernel.FIELD) if self.tension_field else kernel.LINEAR
         table[:, kernel.LAW] = law
         volume = self.bulk[1]

@@ -10,7 +10,7 @@ from scipy.integrate import solve_ivp
 
 from moyai.core.errors import InputError
 from moyai.flexible.elements import FIXED, Bars, BarType, Nodes
-from moyai.flexible.mass_block_kernel import COS, LENGTH, ROOT, SIN, block_loads
+from moyai.flexible.mass_block_kernel import COS, LENGTH, ROOT, SIN, block_loads, room_for
 from moyai.flexible.mass_blocks import MassBlocks
 from moyai.flexible.network import Network
 from moyai.flexible.result import State
@@ -94,7 +94,10 @@ def test_water_that_goes_along_with_all_nodes_presses_as_water_at_rest() -> None
         for place in (velocity, water):
             along[place + k * axis : place + (k + 1) * axis] += speed
     for state in (start, along):
-        block_loads(nodes, guides, frames, (half @ half.T)[None], state, velocity, water, force, axis, False, True)
+        block_loads(
+            nodes, guides, frames, (half @ half.T)[None], state, velocity, water, force, axis, False, True,
+            room_for(nodes),
+        )  # fmt: skip
     assert np.abs(start[force:]).min(where=start[force:] != 0.0, initial=1.0) > 1e-3
     assert np.count_nonzero(start[force:]) >= 6
     np.testing.assert_allclose(along[force:], start[force:], rtol=0.0, atol=1e-12)
