@@ -17,7 +17,6 @@ LONG_FUNCTIONS = {
         "flexible/force_kernel.py: blocks",
         "flexible/force_kernel.py: forces",
         "flexible/implicit_kernel.py: implicit_march",
-        "flexible/ring_kernel.py: ring_loads",
         "floating/lanes_kernel.py: run_lanes",
         "mooring/segments.py: solve_segments",
         "structures/cage/rigid/load_kernel.py: loads",

@@ -14,6 +14,7 @@ from typing import Any
 
 import numpy as np
 
+from moyai.core.arrays import PLAIN
 from moyai.core.compiled import njit
 
 
@@ -80,14 +81,15 @@ def screen_loads(
     # by node: what a corner takes then lies in one place
     sums = np.zeros((out.shape[1], 9))
     for p in range(corners.shape[0]):
-        a, b, c, d = corners[p, 0], corners[p, 1], corners[p, 2], corners[p, 3]
-        count = 4 if d >= 0 else 3
+        count = 4 if corners[p, 3] >= 0 else 3
+        a, b, c = corners[p, 0] & PLAIN, corners[p, 1] & PLAIN, corners[p, 2] & PLAIN
+        d = corners[p, count - 1] & PLAIN
         share = 1.0 / count
         factor, s0, s1, s2 = rows[p, 1], rows[p, 2], rows[p, 3], rows[p, 4]
         w0 = w1 = w2 = 0.0
         low, high = 1e300, -1e300
         for k in range(count):
-            i = corners[p, k]
+            i = corners[p, k] & PLAIN
             w0 += factor * (wu[i] + lead * wa[i]) - u[i]
             w1 += factor * (wv[i] + lead * wb[i]) - v[i]
             w2 += factor * (ww[i] + lead * wc[i]) - w[i]
@@ -108,7 +110,7 @@ def screen_loads(
             continue
         xx, xy, xz, yy, yz, zz = share * xx, share * xy, share * xz, share * yy, share * yz, share * zz
         for k in range(count):
-            i = corners[p, k]
+            i = corners[p, k] & PLAIN
             own = sums[i]
             f0 = factor * (wu[i] + half * wa[i]) - s0
             f1 = factor * (wv[i] + half * wb[i]) - s1

@@ -3,6 +3,9 @@
 ``rings`` is (nodes, first, rows) of :class:`moyai.flexible.rings.RingArrays`: the nodes of all rings one after the
 other, where each begins, and per node EI over the mean bar length, one over the bar before and behind, rest
 curvature (angle), GJ over the bar behind, rest angle of the bar behind.
+
+One ring at a time stands in the rows of ``S``, its nodes from 1 to ``count``, the last one once more before the first
+and the first one behind the last.
 """
 
 from __future__ import annotations
@@ -12,69 +15,144 @@ from typing import Any
 
 import numpy as np
 
+from moyai.core.arrays import PLAIN
 from moyai.core.compiled import njit
 
+#: Rows: place (3), force (3), curvature (3), unit vector along (3) and one over its size before, rest twist of the bar
+#: behind, twist; work of the solution.
+_X, _F, _K, _T, _PER, _PHI, _TWIST, _WORK, _ROWS = 0, 3, 6, 9, 12, 13, 14, 15, 21
+
 
 @njit(cache=True, error_model="numpy")
-def _solve_cyclic(diagonal: Any, off: Any, right: Any, count: int, out: Any, work: Any) -> None:
+def _solve_cyclic(diagonal: Any, off: Any, right: Any, count: int, out: Any, low: Any, p: Any, q: Any) -> None:
     """Solve a symmetric cyclic tridiagonal system; ``off[i]`` joins i and i + 1, the last one the end and the start.
 
-    Elimination of an inner chain with two right-hand sides; the unknown 0 is closed last.
+    Elimination of an inner chain with two right-hand sides; the unknown 1 is closed last.
     """
-    # unknowns 1 .. count-1 form a chain: y = p - q * out[0]
-    low, p, q = work[0], work[1], work[2]
-    d = diagonal[1]
-    low[1] = off[1] / d
-    p[1], q[1] = right[1] / d, off[0] / d
+    # unknowns 2 .. count form a chain: y = p - q * out[1]
+    per = 1.0 / diagonal[2]
+    low[2] = off[2] * per
+    p[2], q[2] = right[2] * per, off[1] * per
     if count == 2:
-        q[1] = (off[0] + off[1]) / d
-    for i in range(2, count):
-        d = diagonal[i] - off[i - 1] * low[i - 1]
-        low[i] = off[i] / d
-        corner = off[count - 1] if i == count - 1 else 0.0
-        p[i] = (right[i] - off[i - 1] * p[i - 1]) / d
-        q[i] = (corner - off[i - 1] * q[i - 1]) / d
-    for i in range(count - 2, 0, -1):
+        q[2] = (off[1] + off[2]) * per
+    for i in range(3, count + 1):
+        before = off[i - 1]
+        per = 1.0 / (diagonal[i] - before * low[i - 1])
+        low[i] = off[i] * per
+        corner = off[count] if i == count else 0.0
+        p[i] = (right[i] - before * p[i - 1]) * per
+        q[i] = (corner - before * q[i - 1]) * per
+    for i in range(count - 1, 1, -1):
         p[i] -= low[i] * p[i + 1]
         q[i] -= low[i] * q[i + 1]
-    last = count - 1
-    first = right[0] - off[0] * p[1] - off[last] * p[last]
-    out[0] = first / (diagonal[0] - off[0] * q[1] - off[last] * q[last])
-    for i in range(1, count):
-        out[i] = p[i] - q[i] * out[0]
+    closed = right[1] - off[1] * p[2] - off[count] * p[count]
+    closed /= diagonal[1] - off[1] * q[2] - off[count] * q[count]
+    out[1] = closed
+    for i in range(2, count + 1):
+        out[i] = p[i] - q[i] * closed
 
 
 @njit(cache=True, error_model="numpy")
-def _normal(x: Any, y: Any, z: Any, nodes: Any, a: int, b: int, n: Any) -> float:
-    """Write the unit normal of the area that a ring encloses and return its size [eq:cage-ring-normal]."""
-    n[0] = n[1] = n[2] = 0.0
-    x0, y0, z0 = x[nodes[a]], y[nodes[a]], z[nodes[a]]
-    for k in range(a, b):
-        i, j = nodes[k], nodes[k + 1] if k + 1 < b else nodes[a]
-        px, py, pz = x[i] - x0, y[i] - y0, z[i] - z0
-        qx, qy, qz = x[j] - x0, y[j] - y0, z[j] - z0
-        n[0] += 0.5 * (py * qz - pz * qy)
-        n[1] += 0.5 * (pz * qx - px * qz)
-        n[2] += 0.5 * (px * qy - py * qx)
-    size = math.sqrt(n[0] * n[0] + n[1] * n[1] + n[2] * n[2]) + 1e-300
-    for axis in range(3):
-        n[axis] /= size
-    return size
+def _gather(x: Any, y: Any, z: Any, at: Any, count: int, S: Any) -> None:
+    """Write the places of a ring and no forces yet."""
+    at[0], at[count + 1] = at[count], at[1]
+    for h in range(count + 2):
+        i = at[h] & PLAIN
+        S[_X, h], S[_X + 1, h], S[_X + 2, h] = x[i], y[i], z[i]
+        S[_F, h] = S[_F + 1, h] = S[_F + 2, h] = 0.0
 
 
 @njit(cache=True, error_model="numpy")
-def _hinges(x: Any, y: Any, z: Any, nodes: Any, rows: Any, a: int, b: int, n: Any, kappa: Any, mean: Any) -> None:
+def _normal(S: Any, count: int) -> tuple[float, float, float, float]:
+    """Return the unit normal of the area that a ring encloses and its size [eq:cage-ring-normal]."""
+    x, y, z = S[_X], S[_X + 1], S[_X + 2]
+    n0, n1, n2, x0, y0, z0 = 0.0, 0.0, 0.0, x[1], y[1], z[1]
+    for h in range(1, count + 1):
+        px, py, pz = x[h] - x0, y[h] - y0, z[h] - z0
+        qx, qy, qz = x[h + 1] - x0, y[h + 1] - y0, z[h + 1] - z0
+        n0 += 0.5 * (py * qz - pz * qy)
+        n1 += 0.5 * (pz * qx - px * qz)
+        n2 += 0.5 * (px * qy - py * qx)
+    size = math.sqrt(n0 * n0 + n1 * n1 + n2 * n2) + 1e-300
+    return n0 / size, n1 / size, n2 / size, size
+
+
+@njit(cache=True, error_model="numpy")
+def _hinges(S: Any, rows: Any, a: int, count: int) -> None:
     """Write the curvature (angle) at every node of a ring and the unit vector along it."""
-    for k in range(a, b):
-        before, behind = nodes[k - 1] if k > a else nodes[b - 1], nodes[k + 1] if k + 1 < b else nodes[a]
-        i = nodes[k]
-        one, two = rows[k, 1], rows[k, 2]
-        e0, e1, e2 = one * (x[i] - x[before]), one * (y[i] - y[before]), one * (z[i] - z[before])
-        f0, f1, f2 = two * (x[behind] - x[i]), two * (y[behind] - y[i]), two * (z[behind] - z[i])
-        kappa[k - a, 0], kappa[k - a, 1], kappa[k - a, 2] = f0 - e0, f1 - e1, f2 - e2
-        t0, t1, t2 = e0 + f0, e1 + f1, e2 + f2
-        size = math.sqrt(t0 * t0 + t1 * t1 + t2 * t2) + 1e-300
-        mean[k - a, 0], mean[k - a, 1], mean[k - a, 2], mean[k - a, 3] = t0 / size, t1 / size, t2 / size, size
+    for h in range(1, count + 1):
+        one, two, square = rows[a + h - 1, 1], rows[a + h - 1, 2], 0.0
+        for axis in range(3):
+            x = S[_X + axis, h]
+            e, f = one * (x - S[_X + axis, h - 1]), two * (S[_X + axis, h + 1] - x)
+            S[_K + axis, h], S[_T + axis, h] = f - e, e + f
+            square += (e + f) * (e + f)
+        per = 1.0 / (math.sqrt(square) + 1e-300)
+        S[_PER, h] = per
+        for axis in range(3):
+            S[_T + axis, h] *= per
+
+
+@njit(cache=True, error_model="numpy")
+def _twist(S: Any, rows: Any, a: int, count: int, n0: float, n1: float, n2: float) -> None:
+    """Write the twist of the pipe at every node, at which the energy is least, and that of the bars behind at rest."""
+    x, y, z, phi = S[_X], S[_X + 1], S[_X + 2], S[_PHI]
+    diagonal, off, right, low, p, q = S[_WORK], S[_WORK + 1], S[_WORK + 2], S[_WORK + 3], S[_WORK + 4], S[_WORK + 5]
+    for h in range(1, count + 1):
+        k = a + h - 1
+        slope = n0 * (x[h + 1] - x[h]) + n1 * (y[h + 1] - y[h]) + n2 * (z[h + 1] - z[h])
+        phi[h], off[h] = -rows[k, 5] * rows[k, 2] * slope, -rows[k, 4]
+    phi[0], off[0] = phi[count], off[count]
+    for h in range(1, count + 1):
+        k = a + h - 1
+        bend = rows[k, 0] * rows[k, 3]
+        diagonal[h] = bend * rows[k, 3] - off[h - 1] - off[h]
+        along = n0 * S[_K, h] + n1 * S[_K + 1, h] + n2 * S[_K + 2, h]
+        right[h] = bend * along - off[h - 1] * phi[h - 1] + off[h] * phi[h]
+    _solve_cyclic(diagonal, off, right, count, S[_TWIST], low, p, q)
+    S[_TWIST, count + 1] = S[_TWIST, 1]
+
+
+@njit(cache=True, error_model="numpy")
+def _bend(
+    S: Any, rows: Any, a: int, count: int, n0: float, n1: float, n2: float, moments: Any
+) -> tuple[float, float, float, float]:  # fmt: skip
+    """Add the forces of bending and torsion; return the energy and its slope over the normal with the sign turned."""
+    energy, v0, v1, v2 = 0.0, 0.0, 0.0, 0.0
+    x, y, z, u, v, w, twist = S[_X], S[_X + 1], S[_X + 2], S[_F], S[_F + 1], S[_F + 2], S[_TWIST]
+    for h in range(1, count + 1):
+        k = a + h - 1
+        t0, t1, t2, per = S[_T, h], S[_T + 1, h], S[_T + 2, h], S[_PER, h]
+        m0, m1, m2 = n1 * t2 - n2 * t1, n2 * t0 - n0 * t2, n0 * t1 - n1 * t0
+        stiff, one, two, rest, turned = rows[k, 0], rows[k, 1], rows[k, 2], rows[k, 3], twist[h]
+        q0 = S[_K, h] - rest * (m0 + turned * n0)
+        q1 = S[_K + 1, h] - rest * (m1 + turned * n1)
+        q2 = S[_K + 2, h] - rest * (m2 + turned * n2)
+        energy += 0.5 * stiff * (q0 * q0 + q1 * q1 + q2 * q2)
+        q0, q1, q2 = stiff * q0, stiff * q1, stiff * q2
+        moments[k, 0] = q0 * m0 + q1 * m1 + q2 * m2
+        moments[k, 1] = q0 * n0 + q1 * n1 + q2 * n2
+        # the rest curvature turns with the tangent: derivative over the mean direction
+        g0, g1, g2 = -rest * (q1 * n2 - q2 * n1), -rest * (q2 * n0 - q0 * n2), -rest * (q0 * n1 - q1 * n0)
+        along = g0 * t0 + g1 * t1 + g2 * t2
+        g0, g1, g2 = (g0 - along * t0) * per, (g1 - along * t1) * per, (g2 - along * t2) * per
+        # minus the derivatives over the bar before (e) and behind (f) the node
+        e0, e1, e2 = one * (q0 - g0), one * (q1 - g1), one * (q2 - g2)
+        f0, f1, f2 = -two * (q0 + g0), -two * (q1 + g1), -two * (q2 + g2)
+        turn = twist[h + 1] - turned - S[_PHI, h]
+        torque = rows[k, 4] * turn
+        energy += 0.5 * torque * turn
+        moments[k, 2] = torque
+        pull = torque * rows[k, 5] * two
+        # the bar behind pulls at both its ends along the normal
+        f0, f1, f2 = f0 - pull * n0, f1 - pull * n1, f2 - pull * n2
+        u[h - 1], v[h - 1], w[h - 1] = u[h - 1] - e0, v[h - 1] - e1, w[h - 1] - e2
+        u[h], v[h], w[h] = u[h] + e0 - f0, v[h] + e1 - f1, w[h] + e2 - f2
+        u[h + 1], v[h + 1], w[h + 1] = u[h + 1] + f0, v[h + 1] + f1, w[h + 1] + f2
+        v0 += pull * (x[h + 1] - x[h]) - rest * (t1 * q2 - t2 * q1 + turned * q0)
+        v1 += pull * (y[h + 1] - y[h]) - rest * (t2 * q0 - t0 * q2 + turned * q1)
+        v2 += pull * (z[h + 1] - z[h]) - rest * (t0 * q1 - t1 * q0 + turned * q2)
+    return energy, v0, v1, v2
 
 
 @njit(cache=True, error_model="numpy")
@@ -88,101 +166,33 @@ def ring_loads(
     the bar behind [N m].
     """
     nodes, first, rows = rings
-    energy = 0.0
-    n, gn = np.empty(3), np.empty(3)
-    longest = 0
+    energy, longest = 0.0, 0
     for r in range(first.size - 1):
         longest = max(longest, first[r + 1] - first[r])
-    kappa, mean = np.empty((longest, 3)), np.empty((longest, 4))
-    off, diagonal, right, twist = np.empty(longest), np.empty(longest), np.empty(longest), np.empty(longest)
-    phi, work = np.empty(longest), np.empty((3, longest))
+    S, at = np.empty((_ROWS, longest + 2)), np.empty(longest + 2, np.int64)
     for r in range(first.size - 1):
-        a, b = first[r], first[r + 1]
-        count = b - a
-        size = _normal(x, y, z, nodes, a, b, n)
-        _hinges(x, y, z, nodes, rows, a, b, n, kappa, mean)
+        a, count = first[r], first[r + 1] - first[r]
         for h in range(count):
-            k = a + h
-            i, j = nodes[k], nodes[k + 1] if k + 1 < b else nodes[a]
-            slope = rows[k, 2] * (n[0] * (x[j] - x[i]) + n[1] * (y[j] - y[i]) + n[2] * (z[j] - z[i]))
-            phi[h] = -rows[k, 5] * slope
-            off[h] = -rows[k, 4]
-        for h in range(count):
-            k, last = a + h, h - 1 if h > 0 else count - 1
-            bend = rows[k, 0] * rows[k, 3]
-            diagonal[h] = bend * rows[k, 3] - off[last] - off[h]
-            along = n[0] * kappa[h, 0] + n[1] * kappa[h, 1] + n[2] * kappa[h, 2]
-            right[h] = bend * along - off[last] * phi[last] + off[h] * phi[h]
-        _solve_cyclic(diagonal, off, right, count, twist, work)
-        gn[0] = gn[1] = gn[2] = 0.0
-        for h in range(count):
-            k = a + h
-            before, i, behind = (
-                nodes[k - 1] if k > a else nodes[b - 1],
-                nodes[k],
-                nodes[k + 1] if k + 1 < b else nodes[a],
-            )
-            t0, t1, t2, tsize = mean[h, 0], mean[h, 1], mean[h, 2], mean[h, 3]
-            m0, m1, m2 = n[1] * t2 - n[2] * t1, n[2] * t0 - n[0] * t2, n[0] * t1 - n[1] * t0
-            rest = rows[k, 3]
-            q0 = kappa[h, 0] - rest * (m0 + twist[h] * n[0])
-            q1 = kappa[h, 1] - rest * (m1 + twist[h] * n[1])
-            q2 = kappa[h, 2] - rest * (m2 + twist[h] * n[2])
-            energy += 0.5 * rows[k, 0] * (q0 * q0 + q1 * q1 + q2 * q2)
-            q0, q1, q2 = rows[k, 0] * q0, rows[k, 0] * q1, rows[k, 0] * q2
-            moments[k, 0] = q0 * m0 + q1 * m1 + q2 * m2
-            moments[k, 1] = q0 * n[0] + q1 * n[1] + q2 * n[2]
-            # the rest curvature turns with the tangent: derivative over the mean direction
-            g0, g1, g2 = (
-                -rest * (q1 * n[2] - q2 * n[1]),
-                -rest * (q2 * n[0] - q0 * n[2]),
-                -rest * (q0 * n[1] - q1 * n[0]),
-            )
-            along = g0 * t0 + g1 * t1 + g2 * t2
-            g0, g1, g2 = (g0 - along * t0) / tsize, (g1 - along * t1) / tsize, (g2 - along * t2) / tsize
-            one, two = rows[k, 1], rows[k, 2]
-            # minus the derivatives over the bar before (e) and behind (f) the node
-            e0, e1, e2 = one * (q0 - g0), one * (q1 - g1), one * (q2 - g2)
-            f0, f1, f2 = -two * (q0 + g0), -two * (q1 + g1), -two * (q2 + g2)
-            fx[before] -= e0
-            fy[before] -= e1
-            fz[before] -= e2
-            fx[i] += e0 - f0
-            fy[i] += e1 - f1
-            fz[i] += e2 - f2
-            fx[behind] += f0
-            fy[behind] += f1
-            fz[behind] += f2
-            gn[0] -= rest * (t1 * q2 - t2 * q1 + twist[h] * q0)
-            gn[1] -= rest * (t2 * q0 - t0 * q2 + twist[h] * q1)
-            gn[2] -= rest * (t0 * q1 - t1 * q0 + twist[h] * q2)
-            turn = (twist[h + 1] if h + 1 < count else twist[0]) - twist[h] - phi[h]
-            energy += 0.5 * rows[k, 4] * turn * turn
-            torque = rows[k, 4] * turn
-            moments[k, 2] = torque
-            pull = torque * rows[k, 5] * rows[k, 2]
-            fx[behind] -= pull * n[0]
-            fy[behind] -= pull * n[1]
-            fz[behind] -= pull * n[2]
-            fx[i] += pull * n[0]
-            fy[i] += pull * n[1]
-            fz[i] += pull * n[2]
-            gn[0] += pull * (x[behind] - x[i])
-            gn[1] += pull * (y[behind] - y[i])
-            gn[2] += pull * (z[behind] - z[i])
+            at[h + 1] = nodes[a + h]
+        _gather(x, y, z, at, count, S)
+        n0, n1, n2, size = _normal(S, count)
+        _hinges(S, rows, a, count)
+        _twist(S, rows, a, count, n0, n1, n2)
+        part, v0, v1, v2 = _bend(S, rows, a, count, n0, n1, n2, moments)
+        energy += part
         # the plane of the ring turns with its nodes
-        along = gn[0] * n[0] + gn[1] * n[1] + gn[2] * n[2]
-        p0, p1, p2 = (gn[0] - along * n[0]) / size, (gn[1] - along * n[1]) / size, (gn[2] - along * n[2]) / size
-        for k in range(a, b):
-            before, i, behind = (
-                nodes[k - 1] if k > a else nodes[b - 1],
-                nodes[k],
-                nodes[k + 1] if k + 1 < b else nodes[a],
-            )
-            c0, c1, c2 = x[behind] - x[before], y[behind] - y[before], z[behind] - z[before]
-            fx[i] -= 0.5 * (c1 * p2 - c2 * p1)
-            fy[i] -= 0.5 * (c2 * p0 - c0 * p2)
-            fz[i] -= 0.5 * (c0 * p1 - c1 * p0)
+        along, half = v0 * n0 + v1 * n1 + v2 * n2, 0.5 / size
+        p0, p1, p2 = half * (v0 - along * n0), half * (v1 - along * n1), half * (v2 - along * n2)
+        for axis in range(3):
+            S[_F + axis, count] += S[_F + axis, 0]
+            S[_F + axis, 1] += S[_F + axis, count + 1]
+        for h in range(1, count + 1):
+            i = at[h] & PLAIN
+            c0, c1 = S[_X, h + 1] - S[_X, h - 1], S[_X + 1, h + 1] - S[_X + 1, h - 1]
+            c2 = S[_X + 2, h + 1] - S[_X + 2, h - 1]
+            fx[i] += S[_F, h] - (c1 * p2 - c2 * p1)
+            fy[i] += S[_F + 1, h] - (c2 * p0 - c0 * p2)
+            fz[i] += S[_F + 2, h] - (c0 * p1 - c1 * p0)
     return energy
 
 
