@@ -246,10 +246,31 @@ def assemble(problem: BreakwaterProblem, level_name: str, level: float) -> Float
     return replace(unit, breakwater=breakwater, inertia=inertia)
 
 
+def at_level(breakwater: Breakwater, level: float) -> Breakwater:
+    """Return the breakwater with the fixed ends of springs counted from the still water of a level above datum [m].
+
+    Parameters
+    ----------
+    breakwater : Breakwater
+        As the case gives it, from still water at datum.
+    level : float
+        [m] above datum.
+    """
+    if level == 0.0 or not any(isinstance(line, MooringSpring) for line in breakwater.lines):
+        return breakwater
+    lines = tuple(
+        replace(line, anchor=(line.anchor[0], line.anchor[1], line.anchor[2] - level))
+        if isinstance(line, MooringSpring)
+        else line
+        for line in breakwater.lines
+    )
+    return replace(breakwater, lines=lines)
+
+
 def _assembled(breakwater: Breakwater, environment: Environment, level_name: str, level: float) -> FloatingUnit:
-    water = _checked_water(environment, level_name, level)
-    reference = environment.water_at(environment.water_levels[0][1])
-    balance = _reference_balance(breakwater, reference)
+    water, zero = _checked_water(environment, level_name, level), environment.water_levels[0][1]
+    balance = _reference_balance(at_level(breakwater, zero), environment.water_at(zero))
+    breakwater = at_level(breakwater, level)
     at_reference = level_name == environment.water_levels[0][0]
     start = balance.draught
     if start is None:

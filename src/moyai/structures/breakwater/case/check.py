@@ -380,7 +380,7 @@ def _check_lines_at_rest(model: BreakwaterCase, unit: Breakwater, environment: E
     from moyai.floating.statics import body_to_site
     from moyai.mooring.checks import check_line_system
     from moyai.mooring.system import LineSystem
-    from moyai.structures.breakwater.assembly import site_lines
+    from moyai.structures.breakwater.assembly import at_level, site_lines
 
     if not unit.lines:
         return
@@ -394,7 +394,7 @@ def _check_lines_at_rest(model: BreakwaterCase, unit: Breakwater, environment: E
     for name, level in sorted(environment.water_levels, key=lambda entry: -entry[1]):
         water = environment.water_at(level)
         centre = body_to_site(unit.centre_of_gravity, draught, 0.0)
-        lines = site_lines(unit, water, centre, draught, 0.0)
+        lines = site_lines(at_level(unit, level), water, centre, draught, 0.0)
         depth = water.depth + centre[1]
         placed = ((index, *pair, depth) for index, pair in enumerate(zip(model.lines, lines)))
         check_chain_on_bed(placed, name, findings, chains_reported)
