@@ -177,7 +177,27 @@ def test_the_error_of_exceedance_rates_is_that_of_a_mean_of_realisations():
     found = exceedance_rates(realisations, order=1, levels=5)
     shares = np.array([[np.mean(one > level) for level in found.level] for one in realisations])
     assert found.rate == pytest.approx(shares.mean(axis=0), rel=1e-12)
-    assert found.deviation == pytest.approx(stats.sem(shares, axis=0), rel=1e-12)
+    binomial = stats.binom(240, shares.mean(axis=0)).std() / 240.0
+    between = stats.sem(shares, axis=0)
+    assert np.any(between > binomial) and np.any(between < binomial)
+    assert found.deviation == pytest.approx(np.maximum(between, binomial), rel=1e-12)
+    # of the second order only peaks after one that did not exceed had a chance
+    second = exceedance_rates(realisations[:1], order=2, levels=5)
+    before, peak = realisations[0][:-1], realisations[0][1:]
+    chances = np.array([np.sum(before <= level) for level in second.level])
+    events = np.array([np.sum((before <= level) & (peak > level)) for level in second.level])
+    assert second.deviation == pytest.approx(stats.binom(chances, events / chances).std() / chances, rel=1e-12)
+
+
+def test_levels_at_which_all_realisations_count_alike_do_not_rule_the_tail():
+    """Some of these five records have equal counts at a level; the median of the largest of 2000 is known."""
+    exact = 100.0 * math.sqrt(2.0 * math.log(2000.0 / math.log(2.0)))
+    found = []
+    for seed in (49, 77, 133, 277):
+        rng = np.random.default_rng([7, seed])
+        found.append(fit_tail(exceedance_rates([rng.rayleigh(100.0, 400) for _ in range(5)], order=1)))
+    levels = np.array([tail.maximum_level(2000.0, 0.5) for tail in found]) / exact
+    assert np.all(np.abs(levels - 1.0) < 0.3)
 
 
 def test_average_conditional_exceedance_of_independent_rayleigh_peaks_is_exact():
