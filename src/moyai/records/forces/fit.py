@@ -16,7 +16,7 @@ import numpy as np
 from moyai.core.arrays import Array
 from moyai.core.errors import InputError
 from moyai.core.options import checks_words
-from moyai.records.forces.motion import WaterMotion
+from moyai.records.forces.motion import CleanMotion
 from moyai.records.forces.record import ForceRecord
 from moyai.series.intervals import student_quantile
 
@@ -169,7 +169,7 @@ class ForceFit:
     drag_share: float
 
 
-def force_columns(motion: WaterMotion, setup: Setup, component: int) -> Array:
+def force_columns(motion: CleanMotion, setup: Setup, component: int) -> Array:
     """Return rho A a and rho b u|u| / 2 of a component [eq:identification-columns]."""
     u, rate = motion.velocity[:, component], motion.rate[:, component]
     speed = np.abs(u) if setup.form == "component" else np.linalg.norm(motion.velocity, axis=1)
@@ -194,7 +194,7 @@ def other_columns(
 @checks_words
 def fit_component(
     record: ForceRecord,
-    motion: WaterMotion,
+    motion: CleanMotion,
     setup: Setup,
     component: int,
     method: Method,
@@ -259,7 +259,7 @@ def fit_component(
 
 
 def _seen(
-    record: ForceRecord, motion: WaterMotion, columns: Array, others: Array, component: int
+    record: ForceRecord, motion: CleanMotion, columns: Array, others: Array, component: int
 ) -> tuple[Array, Array, Array]:
     """Return force and columns as the fit compares them: all cut at the frequency of the velocity's noise.
 
@@ -322,7 +322,7 @@ def _shares(gain: Array, residual: Array, blocks: list[tuple[int, int]]) -> Arra
     return np.array([gain[:, a:b] @ residual[a:b] for a, b in blocks])
 
 
-def _shares_of_motion(gain: Array, found: Array, motion: WaterMotion, setup: Setup, component: int) -> Array:
+def _shares_of_motion(gain: Array, found: Array, motion: CleanMotion, setup: Setup, component: int) -> Array:
     """Return what the error of the motion in each block takes from them [eq:identification-motion]."""
     velocity, measured = motion.errors
     if velocity.shape[0] == 0:

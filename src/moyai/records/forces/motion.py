@@ -12,7 +12,7 @@ from moyai.records.forces.record import ForceRecord, NoiseCut, acceleration_of, 
 
 
 @dataclass(frozen=True, eq=False)
-class WaterMotion:
+class CleanMotion:
     """Velocity and acceleration of the water, component by component."""
 
     #: [m/s]; shape (samples, components).
@@ -53,7 +53,7 @@ class WaterMotion:
         return 0.0 if cut is None or not self.derived else cut.share_left
 
 
-def irregular_motion(record: ForceRecord, cut: tuple[NoiseCut | None, ...]) -> WaterMotion:
+def irregular_motion(record: ForceRecord, cut: tuple[NoiseCut | None, ...]) -> CleanMotion:
     """Return the motion of irregular waves without noise, the acceleration by a spline where none was measured.
 
     The velocity keeps twice the frequencies of the acceleration: noise counts less in it than in a derivative, and
@@ -77,10 +77,10 @@ def irregular_motion(record: ForceRecord, cut: tuple[NoiseCut | None, ...]) -> W
     rate = acceleration_of(slow, record.step) if record.acceleration is None else record.acceleration
     nothing = np.zeros((record.time.size, 0))
     errors = np.zeros((2, 0, 0, record.components))
-    return WaterMotion(velocity, rate, cut, record.step, derived, nothing, nothing, errors)
+    return CleanMotion(velocity, rate, cut, record.step, derived, nothing, nothing, errors)
 
 
-def regular_motion(record: ForceRecord, omega: float, orders: int, blocks: Sequence[tuple[int, int]]) -> WaterMotion:
+def regular_motion(record: ForceRecord, omega: float, orders: int, blocks: Sequence[tuple[int, int]]) -> CleanMotion:
     """Return mean and harmonics of the motion of regular waves [eq:identification-motion].
 
     Noise that does not repeat itself is left out of them but for what each block adds to the error of an amplitude,
@@ -114,4 +114,4 @@ def regular_motion(record: ForceRecord, omega: float, orders: int, blocks: Seque
         measured, apart = fitted(record.acceleration)
         rate = shape @ measured
     cut, derived = (None,) * record.components, record.acceleration is None
-    return WaterMotion(shape @ amplitude, rate, cut, record.step, derived, shape, slope, np.array([error, apart]))
+    return CleanMotion(shape @ amplitude, rate, cut, record.step, derived, shape, slope, np.array([error, apart]))

@@ -11,7 +11,7 @@ import numpy as np
 from moyai.core.errors import InputError
 from moyai.core.validity import Notice
 from moyai.records.forces.fit import UNKNOWN_SHARE, Coefficient, ForceFit, Setup, force_columns, other_columns
-from moyai.records.forces.motion import WaterMotion
+from moyai.records.forces.motion import CleanMotion
 from moyai.records.forces.record import ForceRecord
 
 #: Condition number of the scaled equations above which inertia and drag cannot be distinguished
@@ -150,7 +150,7 @@ def drift_notices(fits: Sequence[ForceFit]) -> list[Notice]:
     return notices
 
 
-def drag_form_notices(record: ForceRecord, motion: WaterMotion, setup: Setup) -> list[Notice]:
+def drag_form_notices(record: ForceRecord, motion: CleanMotion, setup: Setup) -> list[Notice]:
     """Report a flow that turns, fitted by each axis with its own speed alone, where the common speed explains more.
 
     In a circular orbit the common speed is steady, and the drag of one axis is 3 pi/8 of that with its own speed.
@@ -177,7 +177,7 @@ def drag_form_notices(record: ForceRecord, motion: WaterMotion, setup: Setup) ->
     ]
 
 
-def _unexplained(record: ForceRecord, motion: WaterMotion, setup: Setup) -> float:
+def _unexplained(record: ForceRecord, motion: CleanMotion, setup: Setup) -> float:
     """Return the variance that inertia, drag and a mean leave of the forces, over theirs, summed over components."""
     left = 0.0
     for component in range(record.components):
