@@ -216,7 +216,13 @@ def _of_peaks(rows: list[list[Array]], mean: float, wanted: schema.ExtremesOfSee
         kinds.append(PeakKind(fitted, wanted.times * fitted.count / seas))
         notices += check_fit(fitted, kind)
     try:
-        interval = interval_of_kinds(kinds, wanted.probability, seed=wanted.seed, confidence=wanted.confidence)
+        if len(kinds) == 1 and wanted.family == "generalised_pareto":
+            interval = maximum_interval(
+                kinds[0].fitted, kinds[0].count, seed=wanted.seed, probability=wanted.probability,
+                confidence=wanted.confidence, values=pooled[0],
+            )  # fmt: skip
+        else:
+            interval = interval_of_kinds(kinds, wanted.probability, seed=wanted.seed, confidence=wanted.confidence)
         mode = most_probable_of_kinds(kinds)
     except ConvergenceError as error:
         raise InputError(error.fault.message, path="assess.extremes", remedy="run more seeds") from None
