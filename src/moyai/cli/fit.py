@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 import time
 from pathlib import Path
 from typing import Annotated
@@ -66,8 +67,11 @@ def fit(
             )
         elif not quiet:
             say(f"{plan.title}: {result.message}, {time.perf_counter() - started:.1f} s")
-            for entry in entries:
+            for entry, error in zip(entries, found.errors):
                 unit = f" {entry['unit']}" if entry["unit"] else ""
+                if math.isnan(error):
+                    say(f"  {entry['path']} = {entry['value']:.6g}{unit}, error not known")
+                    continue
                 say(
                     f"  {entry['path']} = {entry['value']:.6g}{unit} +- {entry['standard_error']:.2g} "
                     f"(95 %: {entry['lower']:.6g} to {entry['upper']:.6g})"

@@ -224,7 +224,8 @@ def calibrate(
     error : array_like or float, optional
         Standard errors of the observations; without them all weigh alike and the scatter gives the error.
     groups : sequence of str, optional
-        Storm, campaign or run of each observation: left out one by one, and drawn whole by the bootstrap.
+        Storm, campaign or run of each observation: left out one by one, and drawn whole by the bootstrap. Errors are
+        those of whole groups where there are eight or more.
     bootstrap : int
         Number of draws; 0 for none.
     seed : int
@@ -278,10 +279,22 @@ def calibrate(
     residual = prediction - data
     sensitivity = fitter.sensitivity(values)
     covariance, condition = _covariance(sensitivity, residual * weight, values, fitter.scale, error is not None)
-    errors = np.sqrt(np.diag(covariance))
     samples = _draws(fitter, values, groups, bootstrap, seed, progress)
-    interval = _interval(values, errors, samples, _independent(count, groups) - size, error is not None)
     left_out = _leave_out(fitter, values, groups, progress)
+    independent = _independent(count, groups)
+    weighted = residual * weight
+    notices = [
+        *_notices(parameters, values, covariance, condition, left_out),
+        *(_misfit(weighted, count - size) if error is not None else _unknown_error(count - size)),
+        *_alike_in_groups(weighted, groups, independent),
+    ]
+    whole = independent < count and len(left_out) == independent
+    if whole:
+        covariance = _covariance_of_groups(left_out)
+    errors = np.sqrt(np.diag(covariance))
+    # the scatter of groups counts their own mean alone, that of observations all parameters
+    freedom = independent - (1 if whole and samples.shape[0] < _FEWEST_DRAWS else size)
+    interval = _interval(values, errors, samples, freedom, error is not None and not whole)
     progress("calibration", 1, 1)
     return Calibration(
         tuple(parameters),
@@ -297,15 +310,14 @@ def calibrate(
         samples,
         left_out,
         fitter.calls,
-        (
-            *_notices(parameters, values, errors, covariance, condition, left_out),
-            *(_misfit(residual * weight, count - size) if error is not None else ()),
-        ),
+        tuple(notices),
     )
 
 
 _WHOLE_GROUPS = 8
-"""From so many groups on the bootstrap draws whole ones."""
+"""From so many groups on whole ones count as observations: in the bootstrap and in the errors."""
+_FEWEST_DRAWS = 20
+"""From so many draws on the interval is theirs."""
 
 
 def _independent(count: int, groups: Sequence[str] | None) -> int:
@@ -321,7 +333,7 @@ def _interval(values: Array, errors: Array, samples: Array, freedom: int, known_
     observations scatter too little besides, by the root of the share of the degrees of freedom.
     """
     reach = 1.959964 if known_error else (student_quantile(0.95, freedom) if freedom > 0 else math.nan)
-    if samples.shape[0] < 20:
+    if samples.shape[0] < _FEWEST_DRAWS:
         return np.column_stack([values - reach * errors, values + reach * errors])
     bounds = np.asarray(np.quantile(samples, (0.025, 0.975), axis=0).T, dtype=np.float64)
     if freedom <= 0:
@@ -394,6 +406,45 @@ def _leave_out(fitter: _Fitter, values: Array, groups: Sequence[str] | None, pro
     return tuple(out)
 
 
+def _covariance_of_groups(left_out: Sequence[LeftOut]) -> Array:
+    """Return the covariance by the fits that leave out a group each [eq:records-groups]."""
+    values = np.array([left.values for left in left_out])
+    apart = values - values.mean(axis=0)
+    return np.asarray((1.0 - 1.0 / len(values)) * apart.T @ apart)
+
+
+def _alike_in_groups(weighted: Array, groups: Sequence[str] | None, independent: int) -> tuple[Notice, ...]:
+    """Return a notice where few groups differ by more than their observations do, which count as independent then."""
+    from scipy.special import fdtrc
+
+    names = list(dict.fromkeys(groups)) if groups is not None else []
+    within = weighted.size - len(names)
+    if len(names) < 2 or independent < weighted.size or within < 1:
+        return ()
+    of_group = np.array([names.index(group) for group in groups or ()])
+    count = np.bincount(of_group)
+    mean = np.bincount(of_group, weighted) / count
+    inner = float(np.sum((weighted - mean[of_group]) ** 2)) / within
+    outer = float(count @ (mean - weighted.mean()) ** 2) / (len(names) - 1)
+    if not inner > 0.0 or float(fdtrc(len(names) - 1, within, outer / inner)) > 1e-2:
+        return ()
+    ratio = math.sqrt(outer / inner)
+    message = (
+        f"the residuals of {len(names)} groups differ {ratio:.3g} times as much as those within them explain: errors "
+        "and intervals, which take the observations as independent, are too small"
+    )
+    remedy = f"add groups; {_WHOLE_GROUPS} and more count as whole ones"
+    return (Notice("calibration-groups", message, ratio, 1.0, remedy=remedy),)
+
+
+def _unknown_error(freedom: int) -> tuple[Notice, ...]:
+    """Return a notice where as many parameters as observations leave no scatter to find errors from."""
+    if freedom > 0:
+        return ()
+    message = "as many parameters as observations: their errors are not known"
+    return (Notice("calibration-error", message, float(freedom), 1.0, remedy="add observations, or give their errors"),)
+
+
 def _misfit(weighted: Array, freedom: int) -> tuple[Notice, ...]:
     """Return a notice where the model misses the observations by more than their stated errors explain."""
     from scipy.special import chdtrc
@@ -412,12 +463,12 @@ def _misfit(weighted: Array, freedom: int) -> tuple[Notice, ...]:
 def _notices(
     parameters: Sequence[Parameter],
     values: Array,
-    errors: Array,
     covariance: Array,
     condition: float,
     left_out: Sequence[LeftOut],
 ) -> tuple[Notice, ...]:
     notices = []
+    errors = np.sqrt(np.diag(covariance))
     if condition > LARGEST_CONDITION:
         pair = _worst_pair(parameters, covariance)
         message = f"the observations do not distinguish the parameters (condition number {condition:.3g}){pair}"

@@ -24,7 +24,8 @@ class ExceedanceRates:
     level: Array
     #: Average conditional exceedance rate, per peak; shape (m,).
     rate: Array
-    #: Standard deviation of the rate: between realisations where there are several, binomial otherwise; shape (m,).
+    #: Standard deviation of the rate: between realisations where there are five and more, never below the binomial one;
+    #: shape (m,).
     deviation: Array
     #: Number of peaks that the condition spans, the one itself counted.
     order: int
@@ -122,7 +123,7 @@ def exceedance_rates(realisations: list[ArrayLike], *, order: int, levels: int =
     Returns
     -------
     ExceedanceRates
-        Levels, rates and their deviations, shape (levels,).
+        Levels, rates and their deviations [eq:extremes-acer-error], shape (levels,).
 
     Raises
     ------
@@ -150,7 +151,7 @@ def exceedance_rates(realisations: list[ArrayLike], *, order: int, levels: int =
         )
     everything = np.concatenate(series)
     level = np.linspace(np.median(everything), np.max(everything), levels, endpoint=False)
-    each = []
+    each, all_chances = [], np.zeros(levels)
     for one in series:
         above = one[None, :] > level[:, None]
         quiet = np.ones_like(above)
@@ -161,13 +162,15 @@ def exceedance_rates(realisations: list[ArrayLike], *, order: int, levels: int =
         used = slice(order - 1, None)
         events, chances = (above & quiet)[:, used].sum(axis=1), quiet[:, used].sum(axis=1)
         each.append(events / np.maximum(chances, 1))
+        all_chances += chances
     weight = np.array([one.size for one in series], dtype=float)
     table = np.array(each)
     rate = np.average(table, axis=0, weights=weight)
+    # few realisations may have equal counts at a level by chance: that does not make it known without error
+    deviation = np.sqrt(rate * (1.0 - rate) / np.maximum(all_chances, 1.0))
     if len(series) >= 5:
-        deviation = np.sqrt(np.average((table - rate) ** 2, axis=0, weights=weight) / (len(series) - 1))
-    else:
-        deviation = np.sqrt(np.maximum(rate * (1.0 - rate), 0.0) / total)
+        scatter = np.average((table - rate) ** 2, axis=0, weights=weight) / (len(series) - 1)
+        deviation = np.maximum(deviation, np.sqrt(scatter))
     return ExceedanceRates(level, rate, deviation, order, total)
 
 
@@ -211,7 +214,8 @@ def fit_tail(rates: ExceedanceRates, *, tail_from: float | None = None) -> AcerF
 
 def _fit(rates: ExceedanceRates, rate: Array, start: float) -> AcerFit:
     # Levels whose scatter is as large as their rate say nothing
-    used = (rates.level >= start) & (rate > 0.0) & (rates.deviation < 0.7 * rates.rate)
+    known = (rates.deviation > 0.0) & (rates.deviation < 0.7 * rates.rate)
+    used = (rates.level >= start) & (rate > 0.0) & known
     if used.sum() < 6:
         raise InputError(
             "too few levels are left for the tail",
@@ -219,7 +223,7 @@ def _fit(rates: ExceedanceRates, rate: Array, start: float) -> AcerFit:
             remedy="lower it, or run more seeds",
         )
     level, log = rates.level[used], np.log(rate[used])
-    weight = rates.rate[used] / np.maximum(rates.deviation[used], 1e-12 * rates.rate[used])
+    weight = rates.rate[used] / rates.deviation[used]
     weight = weight / weight.max()
     spread = float(np.ptp(level)) or 1.0
 

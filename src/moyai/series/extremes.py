@@ -18,7 +18,7 @@ from moyai.core.errors import ConvergenceError, InputError
 from moyai.core.options import checks_words
 from moyai.core.validity import Notice
 from moyai.series.intervals import Interval, reflected_interval
-from moyai.series.likelihood import pareto_likelihood, weibull_likelihood
+from moyai.series.likelihood import pareto_level_bounds, pareto_likelihood, weibull_likelihood
 
 Family = Literal["gumbel", "weibull", "generalised_pareto"]
 
@@ -328,6 +328,7 @@ def maximum_interval(
     probability: float | None = None,
     confidence: float = 0.9,
     repetitions: int = 400,
+    values: ArrayLike | None = None,
 ) -> Interval:
     """Return the most probable maximum of ``count`` values with its confidence interval.
 
@@ -345,6 +346,9 @@ def maximum_interval(
         Of the interval [-].
     repetitions : int
         Fits to samples drawn from ``fitted``.
+    values : array_like, optional
+        What a generalised Pareto was fitted to: the interval is that of the profile likelihood then
+        [eq:extremes-profile], since few fits to samples cover too little of its tail.
 
     Returns
     -------
@@ -374,6 +378,11 @@ def maximum_interval(
     def level(one: ExtremeFit) -> float:
         return one.most_probable_maximum(count) if probability is None else one.maximum_level(count, probability)
 
+    if fitted.family == "generalised_pareto" and values is not None:
+        excess = np.asarray(values, dtype=float).ravel() - fitted.location
+        exceeded = 1.0 / count if probability is None else -math.expm1(math.log(probability) / count)
+        low, high = pareto_level_bounds(excess[excess > 0.0], exceeded, confidence)
+        return Interval(level(fitted), fitted.location + low, fitted.location + high, confidence)
     generator = np.random.default_rng(seed)
     found = []
     for _ in range(repetitions):

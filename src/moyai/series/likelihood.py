@@ -12,6 +12,7 @@ import numpy as np
 
 from moyai.core.arrays import Array
 from moyai.core.errors import ConvergenceError
+from moyai.series.intervals import student_quantile
 
 _STEPS = 100
 
@@ -100,3 +101,38 @@ def pareto_likelihood(excess: Array) -> tuple[float, float]:
         return 0.0, unit
     shape = shape_of(theta)
     return shape, shape / theta * unit
+
+
+def pareto_level_bounds(excess: Array, probability: float, confidence: float) -> tuple[float, float]:
+    """Return the bounds of the excess that is exceeded with a probability, by its profile [eq:extremes-profile].
+
+    Parameters
+    ----------
+    excess : ndarray (n,)
+        Values above the threshold, three or more, not all equal.
+    probability : float
+        With which a value exceeds the level, between 0 and 1.
+    confidence : float
+        Of the bounds.
+
+    Raises
+    ------
+    ConvergenceError
+        Where the likelihood has no maximum.
+    """
+    from scipy.special import lambertw
+
+    shape, scale = pareto_likelihood(excess)
+    count, unit = excess.size, float(np.mean(excess))
+    x, end = excess / unit, -unit / float(np.max(excess))
+    least = -count * (math.log(scale / unit) + shape + 1.0) - 0.5 * student_quantile(confidence, count - 2) ** 2
+    # shape over scale, from the end of the distribution at the largest value to a tail that is all but flat
+    theta = np.concatenate([end * (1.0 - np.geomspace(1e-9, 1.0 - 1e-5, 1000)), np.geomspace(1e-5, 1e6, 2000)])
+    total = np.array([float(np.sum(np.log1p(one * x))) for one in theta])
+    # n ln u - u = T, u = total / shape, bounds the shape for each theta
+    wanted = -np.exp((least - count * np.log(theta / total) + total) / count) / count
+    reached = wanted >= -math.exp(-1.0)
+    theta, total, wanted = theta[reached], total[reached], wanted[reached]
+    shapes = [np.maximum(total / (-count * lambertw(wanted, branch).real), -1.0) for branch in (0, -1)]
+    levels = [np.expm1(-one * math.log(probability)) / theta for one in shapes]
+    return unit * float(np.min(levels)), unit * float(np.max(levels))

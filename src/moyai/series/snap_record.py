@@ -37,7 +37,7 @@ class CableSnap:
     peak_time: float
     #: Steady level after the spike [N].
     plateau: float
-    #: Standard error of the plateau [N], from the scatter of blocks.
+    #: Standard error of the plateau [N], from the scatter of blocks; that of the zero level there included.
     plateau_error: float
     #: Level that was taken off, at the first sample [N].
     offset: float
@@ -185,7 +185,11 @@ def read_snap(
             remedy="widen it",
         )
     rough = _flank(total, largest)
-    plateau, error, slope = _level(t, total, largest, int(inside[-1]))
+    last = int(inside[-1])
+    plateau, error, slope = _level(t, total, largest, last)
+    # the level is that of the later half of what follows the peak
+    when = float(t[last] - 0.5 * _PLATEAU_SHARE * (t[last] - t[largest]))
+    zero_errors = [_zero_error(t, row, quiet, when) for row in (*values, values.sum(axis=0))]
     peak, peak_time = _top(t, total, largest, rough, noise)
     if plateau < -0.1 * peak - 4.0 * noise:
         raise InputError(
@@ -195,19 +199,20 @@ def read_snap(
             remedy="turn the sign of the gauge, check the unloaded intervals, or record on to the plateau",
         )
     taut = _taut(t, total, largest, peak_time, rough, inside[0])
-    start = _plateau_start(t, total, largest, int(inside[-1]), plateau, peak, noise)
+    start = _plateau_start(t, total, largest, last, plateau, peak, noise)
     released = _release(t, total, taut, noise, inside[0]) if release_time is None else float(release_time)
     snaps = []
-    for label, row, (offset, drift, own) in zip(labels, levelled, fits):
+    for label, row, (offset, drift, own), zero_error in zip(labels, levelled, fits, zero_errors):
         near = slice(max(largest - rough, 0), largest + rough + 1)
         own_top = near.start + int(np.argmax(row[near]))
         own_peak, own_time = _top(t, row, own_top, rough, own)
-        level, level_error, _ = _level(t, row, largest, int(inside[-1]))
+        level, level_error, _ = _level(t, row, largest, last)
+        level_error = math.hypot(level_error, zero_error)
         snaps.append(CableSnap(label, own_peak, own_time, level, level_error, offset, drift, own))
     offset, drift, _ = fits[-1]
-    both = CableSnap("sum", peak, peak_time, plateau, error, offset, drift, noise)
+    both = CableSnap("sum", peak, peak_time, plateau, math.hypot(error, zero_errors[-1]), offset, drift, noise)
     found = MeasuredSnap(released, taut, peak_time, start, both, tuple(snaps), step, t, levelled, ())
-    notices = _check(found, slope, len(quiet), float(t[inside[-1]]))
+    notices = _check(found, slope, len(quiet), float(t[last]))
     return MeasuredSnap(released, taut, peak_time, start, both, tuple(snaps), step, t, levelled, notices)
 
 
@@ -257,6 +262,18 @@ def _zero(t: Array, row: Array, quiet: list[NDArray[np.intp]]) -> tuple[float, f
     offset = float(np.median(left))
     # 1.4826 times the median deviation: a stray spike does not count
     return offset, drift, 1.4826 * float(np.median(np.abs(left - offset)))
+
+
+def _zero_error(t: Array, row: Array, quiet: list[NDArray[np.intp]], when: float) -> float:
+    """Return the standard error of the zero level at a time, from the scatter of blocks [eq:snap-zero-error]."""
+    sizes = [max(2, round(10 * chosen.size / sum(one.size for one in quiet))) for chosen in quiet]
+    pieces = [piece for chosen, size in zip(quiet, sizes) for piece in np.array_split(chosen, size)]
+    middle = np.array([t[piece].mean() for piece in pieces])
+    level = np.array([np.median(row[piece]) for piece in pieces])
+    shape = np.stack([np.ones_like(middle), middle - when], axis=1)[:, : 1 if len(quiet) == 1 else 2]
+    left = level - shape @ np.linalg.lstsq(shape, level, rcond=None)[0]
+    variance = float(left @ left) / max(level.size - shape.shape[1], 1)
+    return math.sqrt(variance * float(np.linalg.inv(shape.T @ shape)[0, 0]))
 
 
 def _flank(total: Array, largest: int) -> int:

@@ -110,6 +110,9 @@ def _excess_at(law: SnapLaw, probability: float, shape: float, scale: float) -> 
 def _mode(law: SnapLaw, shape: float, scale: float, count: float) -> float:
     """Return the most probable excess of the largest of a Poisson number of peaks with mean ``count``."""
     if law == "pareto":
+        if shape <= -1.0:
+            # the density rises up to the end of the distribution
+            return -scale / shape
         # n Q = 1 + c
         return _excess_at(law, min((1.0 + shape) / count, 1.0), shape, scale)
     # n e^-t = 1 - (c - 1)/(c t), t = (y/a)^c

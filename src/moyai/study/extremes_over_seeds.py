@@ -25,6 +25,8 @@ if TYPE_CHECKING:
 
 _LEAST = 5
 _PARETO_SHARE = 0.1
+#: Peaks whose largest is wanted over those that were found, above which an interval by rates is too narrow
+_FAR = 2.0
 _FEW_SNAPS = 10
 _NAMES = ("design_value", "lower", "upper", "most_probable_maximum", "location", "scale", "shape")
 
@@ -216,7 +218,13 @@ def _of_peaks(rows: list[list[Array]], mean: float, wanted: schema.ExtremesOfSee
         kinds.append(PeakKind(fitted, wanted.times * fitted.count / seas))
         notices += check_fit(fitted, kind)
     try:
-        interval = interval_of_kinds(kinds, wanted.probability, seed=wanted.seed, confidence=wanted.confidence)
+        if len(kinds) == 1 and wanted.family == "generalised_pareto":
+            interval = maximum_interval(
+                kinds[0].fitted, kinds[0].count, seed=wanted.seed, probability=wanted.probability,
+                confidence=wanted.confidence, values=pooled[0],
+            )  # fmt: skip
+        else:
+            interval = interval_of_kinds(kinds, wanted.probability, seed=wanted.seed, confidence=wanted.confidence)
         mode = most_probable_of_kinds(kinds)
     except ConvergenceError as error:
         raise InputError(error.fault.message, path="assess.extremes", remedy="run more seeds") from None
@@ -247,4 +255,18 @@ def _of_rates(rows: list[Array], seas: int, wanted: schema.ExtremesOfSeeds) -> _
     tail = fit_tail(rates)
     count = wanted.times * total / seas
     interval = acer_interval(tail, count, wanted.probability, confidence=wanted.confidence)
-    return _FoundValues(interval.value, interval.lower, interval.upper, tail.most_probable_maximum(count), tail.b)
+    mode = tail.most_probable_maximum(count)
+    return _FoundValues(
+        interval.value, interval.lower, interval.upper, mode, tail.b, math.nan, math.nan, _far_beyond(count, total)
+    )
+
+
+def _far_beyond(count: float, total: int) -> tuple[Notice, ...]:
+    """Return a notice where the largest of more peaks is wanted than were found: intervals hold too little there."""
+    if count <= _FAR * total:
+        return ()
+    message = (
+        f"the largest of {count:.4g} peaks is wanted and {total} peaks were found; so far beyond them the interval is "
+        "too narrow"
+    )
+    return (Notice("extremes-far", message, count / total, _FAR, remedy="run more seeds"),)

@@ -14,12 +14,14 @@ from renamed import unmissed
 from moyai.case.builder import build
 from moyai.case.reader import load_case
 from moyai.core.errors import InputError
+from moyai.series.snap_statistics import fit_snaps
 from moyai.structures.curtain import headlines
 from moyai.structures.curtain.analyses import loads
 from moyai.structures.curtain.analyses.dynamic import SpanLoad
 from moyai.structures.curtain.analyses.impact import solve_impact
 from moyai.structures.curtain.analyses.limits import fastest_water, sea_loads
 from moyai.structures.curtain.analyses.loads import loads_dataset
+from moyai.structures.curtain.analyses.waves import _maximum
 from moyai.structures.curtain.assembly import assemble
 from moyai.structures.curtain.governing import WEAKER
 from moyai.structures.curtain.hierarchy import CYCLES, IMPACT, ModelRole
@@ -582,3 +584,13 @@ def test_cycles_are_judged_at_the_upper_end_of_the_drag_too():
     found = SeaCycles.of(sea.assign(strong_drag_tension=8.4))
     assert (found.top, found.judged) == (7.0, 8.4) and found.of_strong_drag == pytest.approx(1.2)
     assert SeaCycles.of(sea.assign(strong_drag_tension=6.0)).judged == 7.0
+
+
+def test_a_largest_tension_that_there_is_not_is_said_so():
+    fit = fit_snaps(np.random.default_rng(1).weibull(1.3, 30), 30.0, threshold=0.0, resamples=50)
+    numbers, notices = _maximum("curtain, sea", fit, 0.1)
+    assert all(math.isnan(number) for number in numbers.values())
+    (notice,) = notices
+    assert notice.code == "snap-no-maximum" and "curtain, sea" in notice.message and "0.1 peaks" in notice.message
+    numbers, notices = _maximum("curtain, sea", fit, 30.0)
+    assert notices == () and numbers["most_probable_maximum"] == fit.most_probable_maximum(30.0).value

@@ -164,3 +164,29 @@ def test_bad_records_are_refused(spoil, word):
     time, both, known = planted(5, samples_in_rise=60)
     with pytest.raises(InputError, match="names"):
         read(time, both, known, names=["upper"])
+
+
+@pytest.mark.parametrize("drift", [0.0, 0.05])
+def test_the_error_of_the_plateau_holds_that_of_the_zero(drift):
+    """White noise: medians of plateau and of the unloaded blocks, the line of the drift led on to the plateau."""
+    rng = np.random.default_rng(5)
+    time = np.arange(0.0, 23.0, 0.005)
+    clean = np.where(time < 2.0, 0.0, 5.0 + 15.0 * np.exp(-np.abs(time - 4.0) / 0.3))
+    clean[(time > 21.5)] = 0.0
+    first, second = (time <= 1.9), (time >= 22.0)
+    quiet = [(0.0, 1.9), (22.0, 22.995)] if drift else [(0.0, 1.9)]
+    stated, found = [], []
+    for _ in range(60):
+        record = clean + 0.7 + drift * time + 0.2 * rng.standard_normal(time.size)
+        snap = read_snap(time, record, unloaded=quiet, window=(1.0, 21.0))
+        stated.append(snap.sum.plateau_error)
+        found.append(snap.sum.plateau - 5.0)
+    used = time[first | second] if drift else time[first]
+    middle = 0.5 * (12.5 + 21.0)
+    zero = 1.0 / used.size
+    if drift:
+        zero += (middle - used.mean()) ** 2 / np.sum((used - used.mean()) ** 2)
+    # a median scatters by pi/2 more than a mean
+    exact = 0.2 * math.sqrt(0.5 * math.pi * (zero + 1.0 / 1700.0))
+    assert math.sqrt(np.mean(np.square(stated))) == pytest.approx(exact, rel=0.15)
+    assert np.mean(np.abs(found) <= 2.0 * np.array(stated)) > 0.85

@@ -5,6 +5,7 @@ import math
 import numpy as np
 import pytest
 from scipy import stats
+from scipy.signal import lfilter
 
 from moyai.core.errors import InputError
 from moyai.series.acer import acer_interval, exceedance_rates, fit_tail
@@ -146,30 +147,58 @@ def test_intervals_cover_as_often_as_they_say(family, confidence):
     assert abs(covered / repetitions - confidence) < slack
 
 
+@pytest.mark.parametrize(("shape", "count"), [(-0.2, 30), (0.1, 25), (0.3, 200)])
+def test_the_bounds_of_a_pareto_level_are_those_of_its_likelihood(shape, count):
+    """All pairs of shape and scale whose likelihood is near the largest, by scipy: the levels that they span."""
+    rng = np.random.default_rng(count)
+    values = 5.0 + stats.genpareto.rvs(shape, scale=2.0, size=count, random_state=rng)
+    fitted = fit(values, "generalised_pareto", location=5.0)
+    found = maximum_interval(fitted, 300.0, seed=1, probability=0.5, confidence=0.9, values=values)
+    scales = fitted.scale * np.geomspace(0.2, 4.0, 300)[:, None]
+    shapes = np.linspace(-1.0, fitted.shape + 1.6, 400)[None, :]
+    likelihood = sum(stats.genpareto.logpdf(one - 5.0, shapes, scale=scales) for one in values)
+    near = 2.0 * (fitted.log_likelihood - likelihood) <= stats.t.ppf(0.95, count - 2) ** 2
+    level = 5.0 + stats.genpareto.isf(1.0 - 0.5 ** (1.0 / 300.0), shapes, scale=scales)[near]
+    assert found.value == pytest.approx(fitted.maximum_level(300.0, 0.5), rel=1e-12)
+    # the grid lies within the region: a little less than all of it
+    assert found.lower == pytest.approx(level.min(), rel=0.02) and found.lower <= level.min() * 1.0001
+    assert found.upper == pytest.approx(level.max(), rel=0.08) and found.upper >= level.max() * 0.9999
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize(("count", "least"), [(20, 0.78), (100, 0.84)])
+def test_intervals_of_few_pareto_values_cover_more_than_samples_of_the_fit(count, least):
+    rng = np.random.default_rng(3)
+    truth, held = 3.0 * (1000.0**0.05 - 1.0) / 0.05, np.zeros(2)
+    for number in range(200):
+        values = stats.genpareto.rvs(0.05, scale=3.0, size=count, random_state=rng)
+        fitted = fit(values, "generalised_pareto", location=0.0)
+        both = [maximum_interval(fitted, 1000.0, seed=number, repetitions=50, values=one) for one in (values, None)]
+        held += [one.lower <= truth <= one.upper for one in both]
+    assert held[0] / 200.0 >= least and held[0] > held[1]
+
+
 @pytest.mark.slow
 def test_average_conditional_exceedance_finds_the_maximum_of_correlated_peaks():
-    # A Gaussian sequence with correlation 0.7: its maximum is known from simulation-free theory only for the
-    # independent one, so the truth is the maximum of many long realisations
+    """Gaussian sequences with correlation 0.7: the truth is the median of the maxima of very many of them."""
     rng = np.random.default_rng(2)
 
-    def sequence(count):
-        x = np.empty(count)
-        x[0] = rng.standard_normal()
-        noise = rng.standard_normal(count) * math.sqrt(1 - 0.7**2)
-        for j in range(1, count):
-            x[j] = 0.7 * x[j - 1] + noise[j]
-        return x
+    def sequences(number):
+        noise = math.sqrt(1.0 - 0.7**2) * rng.standard_normal((number, 1050))
+        return lfilter([1.0], [1.0, -0.7], noise, axis=1)[:, 50:]
 
-    realisations = [sequence(1000) for _ in range(20)]
-    maxima = np.array([sequence(1000).max() for _ in range(600)])
-    tail = fit_tail(exceedance_rates(realisations, order=4))
-    found = acer_interval(tail, 1000, 0.5, confidence=0.95)
-    truth = float(np.median(maxima))
-    assert found.lower - 0.02 <= truth <= found.upper + 0.02
-    assert abs(found.value - truth) < 0.1
+    truth = float(np.median(np.concatenate([sequences(1000).max(axis=1) for _ in range(20)])))
+    found, firsts = [], []
+    for _ in range(30):
+        realisations = list(sequences(20))
+        found.append(acer_interval(fit_tail(exceedance_rates(realisations, order=4)), 1000, 0.5, confidence=0.95))
+        firsts.append(fit_tail(exceedance_rates(realisations, order=1)).maximum_level(1000, 0.5))
+    values = np.array([one.value for one in found])
+    assert sum(one.lower <= truth <= one.upper for one in found) >= 26
+    # three standard errors of a mean of thirty whose deviation is 0.075
+    assert abs(values.mean() - truth) < 3.0 * 0.075 / math.sqrt(30.0)
     # Counting every exceedance ignores the correlation: it can only be larger
-    first = fit_tail(exceedance_rates(realisations, order=1))
-    assert first.maximum_level(1000, 0.5) > found.value - 0.02
+    assert np.mean(firsts) > values.mean()
 
 
 def test_the_error_of_exceedance_rates_is_that_of_a_mean_of_realisations():
@@ -177,7 +206,27 @@ def test_the_error_of_exceedance_rates_is_that_of_a_mean_of_realisations():
     found = exceedance_rates(realisations, order=1, levels=5)
     shares = np.array([[np.mean(one > level) for level in found.level] for one in realisations])
     assert found.rate == pytest.approx(shares.mean(axis=0), rel=1e-12)
-    assert found.deviation == pytest.approx(stats.sem(shares, axis=0), rel=1e-12)
+    binomial = stats.binom(240, shares.mean(axis=0)).std() / 240.0
+    between = stats.sem(shares, axis=0)
+    assert np.any(between > binomial) and np.any(between < binomial)
+    assert found.deviation == pytest.approx(np.maximum(between, binomial), rel=1e-12)
+    # of the second order only peaks after one that did not exceed had a chance
+    second = exceedance_rates(realisations[:1], order=2, levels=5)
+    before, peak = realisations[0][:-1], realisations[0][1:]
+    chances = np.array([np.sum(before <= level) for level in second.level])
+    events = np.array([np.sum((before <= level) & (peak > level)) for level in second.level])
+    assert second.deviation == pytest.approx(stats.binom(chances, events / chances).std() / chances, rel=1e-12)
+
+
+def test_levels_at_which_all_realisations_count_alike_do_not_rule_the_tail():
+    """Some of these five records have equal counts at a level; the median of the largest of 2000 is known."""
+    exact = 100.0 * math.sqrt(2.0 * math.log(2000.0 / math.log(2.0)))
+    found = []
+    for seed in (49, 77, 133, 277):
+        rng = np.random.default_rng([7, seed])
+        found.append(fit_tail(exceedance_rates([rng.rayleigh(100.0, 400) for _ in range(5)], order=1)))
+    levels = np.array([tail.maximum_level(2000.0, 0.5) for tail in found]) / exact
+    assert np.all(np.abs(levels - 1.0) < 0.3)
 
 
 def test_average_conditional_exceedance_of_independent_rayleigh_peaks_is_exact():

@@ -1,6 +1,7 @@
 """Fits of snap peaks against scipy's, numerical maxima of the densities, and coverage of the intervals."""
 
 import math
+from dataclasses import replace
 
 import numpy as np
 import pytest
@@ -55,6 +56,23 @@ def test_most_probable_maximum_is_the_top_of_the_density(law, seed):
     ).x
     assert found.most_probable_maximum(hours).value == pytest.approx(best, rel=1e-5)
     assert found.exceedance(best) == pytest.approx(frozen.sf(best), rel=1e-9)
+
+
+def test_a_pareto_law_whose_density_rises_to_its_end_is_most_probable_there():
+    """With a shape of -1 or less, which short samples give, the largest of any number lies at the upper end."""
+    found = fit_snaps(sample("pareto", -0.1, 40, np.random.default_rng(4)), 2.0, threshold=0.0, law="pareto")
+    shape, scale = -1.25, 60.0
+    frozen = stats.genpareto(shape, scale=scale)
+    y = np.linspace(0.0, scale / 1.25, 1000)[:-1]
+    assert np.all(np.diff(frozen.logpdf(y) - 40.0 * frozen.sf(y)) > 0.0)
+    steep = replace(
+        found,
+        shape=replace(found.shape, value=shape),
+        scale=replace(found.scale, value=scale),
+        resampled=np.tile([shape, scale, 20.0], (50, 1)),
+    )
+    largest = steep.most_probable_maximum(10.0)
+    assert (largest.lower, largest.value, largest.upper) == pytest.approx([scale / 1.25] * 3, rel=1e-12)
 
 
 @pytest.mark.slow

@@ -11,7 +11,7 @@ from moyai.design.long_term import YEAR
 from moyai.report.html import render_html
 from moyai.study.assess import assess
 from moyai.study.execute import run_study
-from moyai.study.extremes_over_seeds import _of_maxima
+from moyai.study.extremes_over_seeds import _far_beyond, _of_maxima
 from moyai.study.plan import load_study
 from moyai.study.query import StudyTable
 from moyai.study.report.page import compose
@@ -180,3 +180,9 @@ def test_labels_that_a_group_inherits_are_labels_too(tmp_path):
     assert np.isfinite(float(result.tree["assessment/extremes 1"]["design_value"]))
     table = StudyTable(result.tree)
     assert table.column("tension_mean_in_time[line=seaward]").values.shape == (3,)
+
+
+def test_an_answer_far_beyond_the_peaks_that_were_found_is_noticed():
+    (notice,) = _far_beyond(2000.0, 300)
+    assert notice.code == "extremes-far" and notice.value == pytest.approx(2000.0 / 300.0)
+    assert _far_beyond(600.0, 300) == ()

@@ -16,6 +16,7 @@ import numpy as np
 from moyai.core.arrays import Array
 from moyai.core.errors import InputError
 from moyai.core.options import checks_words
+from moyai.records.forces.motion import CleanMotion
 from moyai.records.forces.record import ForceRecord
 from moyai.series.intervals import student_quantile
 
@@ -160,35 +161,40 @@ class ForceFit:
     force: Array
     #: What the fit leaves of the force [N/m]; shape (samples,).
     residual: Array
+    #: Rise over the record of the straight line that was fitted with it [N/m].
+    drift: float
     #: Share of the variance of the force that is explained.
     explained: float
     #: Amplitude of the drag over that of the inertia force.
     drag_share: float
 
 
-def force_columns(record: ForceRecord, rate: Array, setup: Setup, component: int) -> Array:
+def force_columns(motion: CleanMotion, setup: Setup, component: int) -> Array:
     """Return rho A a and rho b u|u| / 2 of a component [eq:identification-columns]."""
-    u = record.velocity[:, component]
-    speed = np.abs(u) if setup.form == "component" else np.linalg.norm(record.velocity, axis=1)
+    u, rate = motion.velocity[:, component], motion.rate[:, component]
+    speed = np.abs(u) if setup.form == "component" else np.linalg.norm(motion.velocity, axis=1)
     return np.column_stack(
-        [setup.density * setup.area * rate[:, component], 0.5 * setup.density * setup.widths[component] * u * speed]
+        [setup.density * setup.area * rate, 0.5 * setup.density * setup.widths[component] * u * speed]
     )
 
 
-def other_columns(record: ForceRecord, orders: Sequence[int], mean: bool, omega: float) -> Array:
-    """Return what is fitted together with Morison's equation: mean and harmonics."""
-    angle = omega * (record.time - record.time.mean())
+def other_columns(
+    record: ForceRecord, orders: Sequence[int], mean: bool, omega: float, *, drift: bool = False
+) -> Array:
+    """Return what is fitted together with Morison's equation: mean, harmonics and, last, a straight line."""
+    centred = record.time - record.time.mean()
+    angle = omega * centred
     parts = [np.ones_like(angle)] if mean else []
     for order in orders:
         parts += [np.cos(order * angle), np.sin(order * angle)]
+    parts += [centred / record.duration] if drift else []
     return np.column_stack(parts) if parts else np.zeros((angle.size, 0))
 
 
 @checks_words
 def fit_component(
     record: ForceRecord,
-    columns: Array,
-    rate: Array,
+    motion: CleanMotion,
     setup: Setup,
     component: int,
     method: Method,
@@ -196,39 +202,45 @@ def fit_component(
     blocks: list[tuple[int, int]],
     rng: np.random.Generator,
 ) -> ForceFit:
-    force = record.force[:, component]
+    columns = force_columns(motion, setup, component)
+    # one period cannot be told from a straight line
+    drift = setup.mean and len(blocks) > 1
+    others = other_columns(record, setup.harmonics, setup.mean, omega, drift=drift)
+    force, known, beside = _seen(record, motion, columns, others, component)
     scale = np.linalg.norm(columns, axis=0)
     condition = float(np.linalg.cond(columns / scale)) if (scale > 0.0).all() else math.inf
-    others = other_columns(record, setup.harmonics, setup.mean, omega)
     stretch = 1.0
     if method == "fourier":
-        gain = _fourier_gain(record, columns, omega)
-        rest = force - columns @ (gain @ force)
-        extra, *_ = np.linalg.lstsq(others, rest, rcond=None)
-        modelled = force - rest + others @ extra
+        gain = _fourier_gain(record, columns, omega, drift)
+        extra, *_ = np.linalg.lstsq(others, force - columns @ (gain @ force), rcond=None)
     else:
         weight = np.ones(force.size)
-        whole = _gain(columns, others, weight)
-        design = np.hstack([columns, others])
-        modelled = design @ (whole @ force)
+        design = np.hstack([known, others])
+        noise = motion.noise_left(component)
+        whole = _gain(known, others, weight, noise)
         for _ in range(0 if method == "least_squares" else 60):
-            previous, weight = weight, _weights(method, modelled, force - modelled)
-            whole = _gain(columns, others, weight)
             modelled = design @ (whole @ force)
+            previous, weight = weight, _weights(method, modelled, force - modelled)
+            whole = _gain(known, beside, weight, noise)
             if np.abs(weight - previous).max() < 1e-12:
                 break
-        gain = whole[:2]
+        gain, extra = whole[:2], whole[2:] @ force
         if method == "robust":
             # Huber's estimate answers a change of the record through the samples that are not cut off
             stretch = float(weight.mean() / np.mean(weight >= 1.0))
     found = gain @ force
-    residual = force - modelled
-    samples, covariance = _bootstrap(stretch * gain, residual, found, blocks, setup, rng)
-    coefficients = _coefficients(gain, found, covariance, force, columns, record.step, omega, blocks, setup)
+    shares = _shares(stretch * gain, force - known @ found - beside @ extra, blocks)
+    shares -= _shares_of_motion(gain, found, motion, setup, component)
+    leverage = np.array([np.sum(gain[:, a:b] * known[a:b].T, axis=1) for a, b in blocks])
+    samples, covariance = _bootstrap(shares, leverage, found, setup, rng)
+    freedom = _freedom(gain, blocks)
+    coefficients = _coefficients(gain, found, covariance, force, known, record.step, omega, freedom, setup)
     spread = np.sqrt(np.diagonal(covariance))
     both = float(spread[0] * spread[1])
     parts = [abs(found[k]) * 0.5 * float(np.ptp(columns[:, k])) for k in range(2)]
-    total = float(np.var(force))
+    modelled = columns @ found + others @ extra
+    residual = record.force[:, component] - modelled
+    total = float(np.var(record.force[:, component]))
     return ForceFit(
         method=method,
         component=component,
@@ -240,29 +252,52 @@ def fit_component(
         samples=samples,
         force=modelled,
         residual=residual,
+        drift=float(extra[-1]) if drift else 0.0,
         explained=1.0 - float(np.var(residual)) / total if total > 0.0 else math.nan,
         drag_share=float(parts[1] / parts[0]) if parts[0] > 0.0 else math.inf,
     )
 
 
-def _gain(columns: Array, others: Array, weight: Array) -> Array:
-    """Return the matrix that takes the force to all coefficients by weighted least squares; C_M and C_D come first."""
+def _seen(
+    record: ForceRecord, motion: CleanMotion, columns: Array, others: Array, component: int
+) -> tuple[Array, Array, Array]:
+    """Return force and columns as the fit compares them: all cut at the frequency of the velocity's noise.
+
+    A velocity without what lies above a frequency explains a force without it [eq:identification-filtered]. The
+    derivative of such a velocity is cut already.
+    """
+    known = motion.filtered(columns, component)
+    if motion.derived:
+        known = np.column_stack([columns[:, 0], known[:, 1]])
+    return motion.filtered(record.force[:, component], component), known, motion.filtered(others, component)
+
+
+def _gain(columns: Array, others: Array, weight: Array, noise: float) -> Array:
+    """Return the matrix that takes the force to all coefficients by weighted least squares; C_M and C_D come first.
+
+    ``noise`` is the share of noise in the first column, whose lowering is taken off [eq:identification-attenuation].
+    """
     design = np.hstack([columns, others])
     size = np.linalg.norm(design, axis=0)
     root = np.sqrt(weight)[:, None]
     safe = np.where(size > 0.0, size, 1.0)
-    inverse = np.linalg.pinv(root * design / safe, rcond=1e-13)
+    scaled = root * design / safe
+    inverse = np.linalg.pinv(scaled, rcond=1e-13)
+    if noise > 0.0:
+        # the normal equations without what noise adds to the square of the first column, to first order
+        square = float(scaled[:, 0] @ scaled[:, 0])
+        inverse = inverse + np.outer(noise * square * (inverse @ inverse[0]), inverse[0])
     return np.asarray((inverse / safe[:, None]) * root[:, 0])
 
 
-def _fourier_gain(record: ForceRecord, columns: Array, omega: float) -> Array:
+def _fourier_gain(record: ForceRecord, columns: Array, omega: float, drift: bool) -> Array:
     """Return the same matrix for the first harmonics over whole periods [eq:identification-fourier].
 
     Both columns are analysed on the samples of the force, so that u|u| brings its own equal-work factor; it is
     8/(3 pi) of a sine.
     """
     orders = range(1, 1 + int(min(6, max(1, 2.0 * math.pi / (omega * record.step) // 2 - 1))))
-    design = other_columns(record, orders, True, omega)
+    design = other_columns(record, orders, True, omega, drift=drift)
     inverse = np.linalg.pinv(design)[1:3]
     harmonic = inverse @ columns
     size = np.linalg.norm(harmonic, axis=0)
@@ -282,26 +317,55 @@ def _weights(method: Method, modelled: Array, residual: Array) -> Array:
     return np.asarray(np.minimum(1.0, _HUBER * scale / np.maximum(np.abs(residual), 1e-300)))
 
 
+def _shares(gain: Array, residual: Array, blocks: list[tuple[int, int]]) -> Array:
+    """Return what each block of the residual contributes to the coefficients; shape (blocks, 2)."""
+    return np.array([gain[:, a:b] @ residual[a:b] for a, b in blocks])
+
+
+def _shares_of_motion(gain: Array, found: Array, motion: CleanMotion, setup: Setup, component: int) -> Array:
+    """Return what the error of the motion in each block takes from them [eq:identification-motion]."""
+    velocity, measured = motion.errors
+    if velocity.shape[0] == 0:
+        return np.zeros(2)
+    inertia = found[0] * setup.density * setup.area
+    drag = found[1] * 0.5 * setup.density * setup.widths[component]
+    u = motion.velocity
+    if setup.form == "component":
+        weight = np.zeros_like(u)
+        weight[:, component] = 2.0 * np.abs(u[:, component])
+    else:
+        speed = np.maximum(np.linalg.norm(u, axis=1), 1e-300)
+        weight = u[:, [component]] * u / speed[:, None]
+        weight[:, component] += speed
+    shares = np.zeros((len(velocity), 2))
+    for other in range(u.shape[1]):
+        change = drag * weight[:, [other]] * motion.shape
+        if other == component and motion.derived:
+            change = change + inertia * motion.slope
+        shares += velocity[:, :, other] @ (gain @ change).T
+    return np.asarray(shares + measured[:, :, component] @ (gain @ (inertia * motion.shape)).T)
+
+
+def _freedom(gain: Array, blocks: list[tuple[int, int]]) -> Array:
+    """Return the degrees of freedom of both intervals: fewer where few blocks decide [eq:identification-freedom]."""
+    decided = np.array([np.sum(gain[:, a:b] ** 2, axis=1) for a, b in blocks])
+    return np.asarray(decided.sum(axis=0) ** 2 / np.maximum(np.sum(decided**2, axis=0), 1e-300) - 1.0)
+
+
 def _bootstrap(
-    gain: Array,
-    residual: Array,
-    found: Array,
-    blocks: list[tuple[int, int]],
-    setup: Setup,
-    rng: np.random.Generator,
+    shares: Array, leverage: Array, found: Array, setup: Setup, rng: np.random.Generator
 ) -> tuple[Array, Array]:
     """Return bootstrap samples (count, 2) and the covariance [eq:identification-bootstrap].
 
-    What each block of the residual contributes to the coefficients is resampled with random signs: blocks keep the
-    correlation within them, and the places in the record keep their weight.
+    What each block contributes to the coefficients is resampled with random signs: blocks keep the correlation within
+    them, and the places in the record keep their weight.
     """
-    parts = np.array([gain[:, a:b] @ residual[a:b] for a, b in blocks])
-    count = len(blocks)
+    count = len(shares)
     if count < 2:
         nothing = np.full((setup.bootstrap, 2), np.nan)
         return nothing, np.full((2, 2), np.nan)
-    # the parts sum to nothing by construction of the fit; their spread is that of the coefficients
-    parts = (parts - parts.mean(axis=0)) * math.sqrt(count / (count - 1.0))
+    # the shares sum to nothing by construction of the fit, which follows a block the more it decides
+    parts = (shares - shares.mean(axis=0)) / np.sqrt(1.0 - np.clip(leverage, 0.0, 0.9))
     signs = rng.choice(np.array([-1.0, 1.0]), size=(setup.bootstrap, count))
     samples = found + signs @ parts
     return samples, np.asarray(parts.T @ parts)
@@ -315,13 +379,13 @@ def _coefficients(
     columns: Array,
     step: float,
     omega: float,
-    blocks: list[tuple[int, int]],
+    freedom: Array,
     setup: Setup,
 ) -> list[Coefficient]:
     from scipy.special import ndtri
 
     chance = 0.5 * (1.0 + setup.confidence)
-    quantile = student_quantile(setup.confidence, len(blocks) - 1)
+    quantile = [student_quantile(setup.confidence, float(one)) for one in freedom]
     normal = float(ndtri(chance))
     # a phase error shifts the force in time: per radian by 1/omega [eq:identification-phase]
     slope = np.gradient(columns @ found, step) / omega
@@ -330,7 +394,7 @@ def _coefficients(
     return [
         Coefficient(
             value=float(found[k]),
-            half_width=quantile * math.sqrt(covariance[k, k]) if math.isfinite(covariance[k, k]) else math.inf,
+            half_width=quantile[k] * math.sqrt(covariance[k, k]) if math.isfinite(covariance[k, k]) else math.inf,
             phase_half_width=normal * setup.phase_error * abs(float(sensitivity[k])),
             phase_sensitivity=float(sensitivity[k]),
             rounding=float(rounding[k]),

@@ -17,18 +17,18 @@ from moyai.records.forces.fit import (
     ForceFit,
     Setup,
     fit_component,
-    force_columns,
-    other_columns,
 )
+from moyai.records.forces.motion import irregular_motion, regular_motion
 from moyai.records.forces.notices import (
     collinear_notices,
     drag_form_notices,
+    drift_notices,
     harmonic_notices,
     implausible_notices,
     periodicity_notices,
     unknown_notices,
 )
-from moyai.records.forces.record import ForceRecord, acceleration_of, noise_cut, period_of, without_noise
+from moyai.records.forces.record import ForceRecord, NoiseCut, noise_cut, period_of
 
 #: Share of noise in the variance of a derivative from which it is cut off, and that may be left
 NOISE_REPORTED, NOISE_LEFT = 0.01, 0.02
@@ -116,7 +116,16 @@ def identify(record: ForceRecord, setup: Setup) -> Identification:
         )
     if setup.form == "vector" and record.components < 2:
         raise InputError("the vector form needs two components", parameter="form", allowed="component")
-    record, notices = (record, []) if setup.regular else _clean(record)
+    notices: list[Notice] = []
+    if not setup.regular:
+        cut = _cuts(record, notices)
+        motion = irregular_motion(record, cut)
+        record = replace(
+            record,
+            velocity=np.column_stack(
+                [motion.filtered(record.velocity[:, component], component) for component in range(record.components)]
+            ),
+        )
     if setup.period is not None:
         period = setup.period
     else:
@@ -124,27 +133,26 @@ def identify(record: ForceRecord, setup: Setup) -> Identification:
     used = _whole_periods(record, period, setup.regular)
     omega = 2.0 * math.pi / period
     per_period = period / used.step
-    rate = used.acceleration
     orders = int(min(6, max(1, (per_period - 1) // 2)))
-    notices += periodicity_notices(used, period, orders) if setup.regular else []
-    if rate is None:
-        rate = acceleration_of(used.velocity, used.step, omega if setup.regular else None, orders)
     blocks = _blocks(used, period, setup.regular)
+    if setup.regular:
+        notices += periodicity_notices(used, period, orders)
+        motion = regular_motion(used, omega, orders, blocks)
     rng = np.random.default_rng(setup.seed)
     fits: list[ForceFit] = []
     for component in range(used.components):
-        columns = force_columns(used, rate, setup, component)
         for method in setup.methods:
-            fit = fit_component(used, columns, rate, setup, component, method, omega, blocks, rng)
+            fit = fit_component(used, motion, setup, component, method, omega, blocks, rng)
             fits.append(fit)
             notices.extend(collinear_notices(fit))
             if setup.regular and method != "fourier":
                 notices.extend(harmonic_notices(fit, used, omega))
-    notices += unknown_notices(fits) + implausible_notices(fits, setup)
-    if turning := drag_form_notices(used, rate, setup):
+    notices += unknown_notices(fits) + implausible_notices(fits, setup) + drift_notices(fits)
+    if turning := drag_form_notices(used, motion, setup):
         # the harmonics that this leaves over are no fault of the record
         notices = [*turning, *(notice for notice in notices if notice.code != "identification-harmonics")]
-    speeds = velocity_amplitudes(used, period, orders if setup.regular else None)
+    # of regular waves half of the way between the extremes, of irregular ones the harmonic motion of equal variance
+    speeds = 0.5 * np.ptp(motion.velocity, axis=0) if setup.regular else math.sqrt(2.0) * used.velocity.std(axis=0)
     numbers = tuple(float(speed * period / width) for speed, width in zip(speeds, setup.widths))
     if len(blocks) < 8:
         notices.append(
@@ -157,15 +165,17 @@ def identify(record: ForceRecord, setup: Setup) -> Identification:
             )
         )
     unique = {notice.message: notice for notice in notices}
-    return Identification(used, setup, period, rate, speeds, numbers, tuple(fits), len(blocks), tuple(unique.values()))
+    return Identification(
+        used, setup, period, motion.rate, speeds, numbers, tuple(fits), len(blocks), tuple(unique.values())
+    )
 
 
-def _clean(record: ForceRecord) -> tuple[ForceRecord, list[Notice]]:
-    """Return a record of irregular waves with the noise of its velocity cut off, and what there is to say."""
-    velocity = record.velocity.copy()
-    notices: list[Notice] = []
+def _cuts(record: ForceRecord, notices: list[Notice]) -> tuple[NoiseCut | None, ...]:
+    """Return where noise is cut off the velocities of irregular waves, and add what there is to say."""
+    cuts: list[NoiseCut | None] = []
     for component in range(record.components):
-        cut = noise_cut(velocity[:, component], record.force[:, component], record.step)
+        cut = noise_cut(record.velocity[:, component], record.force[:, component], record.step)
+        cuts.append(cut if cut is not None and cut.share >= NOISE_REPORTED else None)
         if cut is None:
             notices.append(
                 Notice(
@@ -176,10 +186,7 @@ def _clean(record: ForceRecord) -> tuple[ForceRecord, list[Notice]]:
                     remedy="use a record of 20 waves and more",
                 )
             )
-        elif cut.share >= NOISE_REPORTED:
-            velocity[:, component] = without_noise(velocity[:, component], record.step, cut.frequency)
-            if record.acceleration is not None:
-                continue
+        elif cut.share >= NOISE_REPORTED and record.acceleration is None:
             grave = cut.share_left > NOISE_LEFT
             notices.append(
                 Notice(
@@ -188,29 +195,11 @@ def _clean(record: ForceRecord) -> tuple[ForceRecord, list[Notice]]:
                     f"{100.0 * cut.share:.2g} % of the variance of its derivative is noise, which is cut off there, "
                     f"{100.0 * cut.share_left:.2g} % are left",
                     value=cut.share_left, limit=NOISE_LEFT, severity="warning" if grave else "information",
-                    remedy="C_M comes out lower by that share; give a measured 'acceleration', or a quieter gauge",
+                    remedy="C_M is raised by that share, as white noise lowers it; give a measured 'acceleration', or "
+                    "a quieter gauge",
                 )
             )  # fmt: skip
-    return replace(record, velocity=velocity), notices
-
-
-def velocity_amplitudes(record: ForceRecord, period: float, orders: int | None) -> Array:
-    """Return the amplitude of every velocity component [m/s], shape (components,).
-
-    Parameters
-    ----------
-    record : ForceRecord
-    period : float
-        [s].
-    orders : int or None
-        Harmonics of a periodic record: half of the way between the extremes of its mean and harmonics, so that noise
-        does not add to it. None: that of the harmonic motion of equal variance.
-    """
-    if orders is None:
-        return np.asarray(math.sqrt(2.0) * record.velocity.std(axis=0))
-    design = other_columns(record, range(1, orders + 1), True, 2.0 * math.pi / period)
-    fit, *_ = np.linalg.lstsq(design, record.velocity, rcond=None)
-    return np.asarray(0.5 * np.ptp(design @ fit, axis=0))
+    return tuple(cuts)
 
 
 def _mean_period(record: ForceRecord) -> float:

@@ -8,16 +8,18 @@ from dataclasses import replace
 
 import numpy as np
 
-from moyai.core.arrays import Array
 from moyai.core.errors import InputError
 from moyai.core.validity import Notice
 from moyai.records.forces.fit import UNKNOWN_SHARE, Coefficient, ForceFit, Setup, force_columns, other_columns
+from moyai.records.forces.motion import CleanMotion
 from moyai.records.forces.record import ForceRecord
 
 #: Condition number of the scaled equations above which inertia and drag cannot be distinguished
 LARGEST_CONDITION = 1e7
 #: Share of the variance of a velocity outside its harmonics that is reported, and above which it is not periodic
 TOLD_SHARE, APERIODIC_SHARE = 0.01, 0.5
+#: Drift of a force over its range that is reported
+TOLD_DRIFT = 0.05
 #: Speed across over that along from which the form of drag matters [-]
 TURNING_FLOW = 0.2
 #: C_M over its ideal value within which measurements lie
@@ -117,27 +119,49 @@ def periodicity_notices(record: ForceRecord, period: float, orders: int) -> list
                 Notice(
                     "identification-aperiodic-velocity",
                     f"{100.0 * share:.2g} % of the variance of velocity {component + 1} lies outside mean and "
-                    f"harmonics of {period:.4g} s: noise, a wrong period or irregular waves; they bias C_D",
+                    f"harmonics of {period:.4g} s: noise, which is left out, or a wrong period or irregular waves, "
+                    "which bias C_D",
                     value=float(share),
                     limit=TOLD_SHARE,
-                    remedy="check the period; for noisy velocities use the Fourier method",
+                    remedy="check the period",
                 )
             )
     return notices
 
 
-def drag_form_notices(record: ForceRecord, rate: Array, setup: Setup) -> list[Notice]:
+def drift_notices(fits: Sequence[ForceFit]) -> list[Notice]:
+    """Report the straight line that was fitted with the mean, where it is not small against the force."""
+    notices = []
+    for fit in fits:
+        share = abs(fit.drift) / max(float(np.ptp(fit.force)), 1e-300)
+        if share < TOLD_DRIFT or fit.method != fits[0].method:
+            continue
+        notices.append(
+            Notice(
+                "identification-drift",
+                f"force {fit.component + 1} drifts by {fit.drift:.3g} N/m over the record, {100.0 * share:.2g} % of "
+                "its range; a straight line is fitted with the mean",
+                value=share,
+                limit=TOLD_DRIFT,
+                severity="information",
+                remedy="check the gauge; a drift that is not straight is in the intervals only as noise",
+            )
+        )
+    return notices
+
+
+def drag_form_notices(record: ForceRecord, motion: CleanMotion, setup: Setup) -> list[Notice]:
     """Report a flow that turns, fitted by each axis with its own speed alone, where the common speed explains more.
 
     In a circular orbit the common speed is steady, and the drag of one axis is 3 pi/8 of that with its own speed.
     """
     if setup.form != "component" or record.components < 2:
         return []
-    spread = record.velocity.std(axis=0)
+    spread = motion.velocity.std(axis=0)
     ratio = float(spread.min()) / max(float(spread.max()), 1e-300)
     if ratio < TURNING_FLOW:
         return []
-    own, common = (_unexplained(record, rate, replace(setup, form=form)) for form in ("component", "vector"))
+    own, common = (_unexplained(record, motion, replace(setup, form=form)) for form in ("component", "vector"))
     if common >= own:
         return []
     return [
@@ -153,11 +177,11 @@ def drag_form_notices(record: ForceRecord, rate: Array, setup: Setup) -> list[No
     ]
 
 
-def _unexplained(record: ForceRecord, rate: Array, setup: Setup) -> float:
+def _unexplained(record: ForceRecord, motion: CleanMotion, setup: Setup) -> float:
     """Return the variance that inertia, drag and a mean leave of the forces, over theirs, summed over components."""
     left = 0.0
     for component in range(record.components):
-        columns = np.column_stack([force_columns(record, rate, setup, component), np.ones(record.time.size)])
+        columns = np.column_stack([force_columns(motion, setup, component), np.ones(record.time.size)])
         force = record.force[:, component]
         answer, *_ = np.linalg.lstsq(columns, force, rcond=None)
         left += float(np.var(force - columns @ answer)) / max(float(np.var(force)), 1e-300)

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
+from typing import Literal
 
 import numpy as np
 
@@ -16,6 +17,8 @@ _STEP_TOLERANCE = 0.02
 _LEAST_SAMPLES = 12
 #: Waves in a segment of a spectrum, segments at least and at most, and how often chance alone may pass for coherence
 _WAVES_OF_SEGMENT, _LEAST_SEGMENTS, _MOST_SEGMENTS, _CHANCE = 4.0, 5, 12, 1e-3
+#: Order of the filter that cuts noise, and periods of its frequency for which it rings
+_ORDER, _RING = 6, 4.0
 #: Equal samples at an extreme from which on a gauge may be called clipped
 _LEAST_PLATEAU = 4
 
@@ -175,8 +178,8 @@ def _refuse_clipped(values: Array, name: str) -> None:
             )
 
 
-def acceleration_of(velocity: Array, step: float, omega: float | None, harmonics: int) -> Array:
-    """Return the derivative of a velocity record.
+def acceleration_of(velocity: Array, step: float) -> Array:
+    """Return the derivative of a velocity record by a spline of fifth order.
 
     Parameters
     ----------
@@ -184,23 +187,10 @@ def acceleration_of(velocity: Array, step: float, omega: float | None, harmonics
         [m/s].
     step : float
         [s].
-    omega : float or None
-        Angular frequency of a periodic record [rad/s]: differentiated as mean and harmonics, exact for them;
-        ``None``: by a spline of fifth order.
-    harmonics : int
-        Number of harmonics of the periodic record.
     """
-    time = step * np.arange(len(velocity))
-    if omega is not None:
-        orders = np.arange(1, harmonics + 1)
-        middle = time - 0.5 * time[-1]
-        angle = omega * middle[:, None] * orders
-        design = np.column_stack([np.ones_like(time), np.cos(angle), np.sin(angle)])
-        fit, *_ = np.linalg.lstsq(design, velocity, rcond=None)
-        slope = np.column_stack([np.zeros_like(time), -omega * orders * np.sin(angle), omega * orders * np.cos(angle)])
-        return np.asarray(slope @ fit)
     from scipy.interpolate import make_interp_spline
 
+    time = step * np.arange(len(velocity))
     return np.asarray(make_interp_spline(time, velocity, k=5).derivative()(time))
 
 
@@ -241,18 +231,29 @@ def noise_cut(velocity: Array, force: Array, step: float) -> NoiseCut | None:
     if not common[-1] > 0.0:
         return None
     end = min(1.25 * float(frequency[np.searchsorted(common, 0.995 * common[-1])]), 0.98 * float(frequency[-1]))
-    below = frequency <= end
-    beyond = density[(frequency > end) & (frequency <= 2.0 * end)]
-    noise = float(np.median(beyond)) * float(rate[below].sum()) if beyond.size else 0.0
-    whole, kept = float(rate @ density), float(rate[below] @ density[below])
-    return NoiseCut(end, (whole - kept + noise) / whole, noise / kept)
+    beyond = (frequency > end) & (frequency <= 2.0 * end)
+    alone = float(np.median((density * (1.0 - known))[beyond])) if beyond.any() else 0.0
+    passed = rate * _response(frequency, end) ** 2
+    below, whole = frequency <= end, float(rate @ density)
+    share = 1.0 - (float(rate[below] @ density[below]) - alone * float(rate[below].sum())) / whole
+    return NoiseCut(end, share, alone * float(passed.sum()) / float(passed @ density))
 
 
-def without_noise(velocity: Array, step: float, frequency: float) -> Array:
-    """Return a velocity without what lies above a frequency [Hz], without shifting what lies below."""
+def _response(frequency: Array, cut: float) -> Array:
+    """Return the factor by which :func:`without_noise` lowers a frequency."""
+    return 1.0 / (1.0 + (frequency / cut) ** (2 * _ORDER))
+
+
+def without_noise(values: Array, step: float, frequency: float, *, ends: Literal["odd", "even"] = "odd") -> Array:
+    """Return columns (samples, ...) without what lies above a frequency [Hz], without shifting what lies below.
+
+    At its ends the record is led on ``odd``, turned about them, or ``even``, mirrored.
+    """
     from scipy.signal import butter, sosfiltfilt
 
-    return np.asarray(sosfiltfilt(butter(6, frequency, fs=1.0 / step, output="sos"), velocity))
+    length = min(len(values) - 1, math.ceil(_RING / (frequency * step)))
+    low = butter(_ORDER, frequency, fs=1.0 / step, output="sos")
+    return np.asarray(sosfiltfilt(low, values, axis=0, padtype=ends, padlen=length))
 
 
 def period_of(time: Array, records: Array) -> float:

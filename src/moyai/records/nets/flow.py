@@ -150,7 +150,7 @@ def _overtakes(run: NetRun, tank: Tank) -> bool:
 
 def _irregular(run: NetRun, tank: Tank, time: Array, signal: Array) -> PanelFlow:
     if run.velocity is not None:
-        rate = acceleration_of(signal[:, None], float(time[1] - time[0]), None, 1)[:, 0]
+        rate = acceleration_of(signal[:, None], float(time[1] - time[0]))[:, 0]
         return PanelFlow(time, signal, rate, None)
     velocity, rate = orbital_motion(
         time,

@@ -11,7 +11,7 @@ import numpy as np
 
 from moyai.core.arrays import Array
 from moyai.core.at_once import each_at_once
-from moyai.core.errors import InputError
+from moyai.core.errors import ConvergenceError, InputError
 from moyai.core.progress import Progress
 from moyai.core.validity import Notice
 from moyai.core.wording import spoken
@@ -318,6 +318,8 @@ def _irregular(
     tensions = np.concatenate([found.snap_tension for found in snaps])
     hours = sum(found.hours for found in snaps)
     fit, notices = _fit(unit, sea, tensions, hours, settings)
+    largest, without = _maximum(f"{unit.name}, {sea.name}", fit, settings.hours)
+    notices += without
     peaks = np.sort(tensions)[::-1]
     count = sum(found.time.size for found in snaps)
     later = np.array([found.later_tension.max() if found.later_tension.size else 0.0 for found in snaps])
@@ -338,7 +340,7 @@ def _irregular(
         "weibull_threshold": fit.threshold if fit and fit.law == "weibull" else math.nan,
         "analysed_hours": hours,
         "left_out": transient,
-        **_maximum(fit, settings.hours),
+        **largest,
     }
     data: dict[str, Any] = {name: ((), value) for name, value in scalars.items()} | _tops(tops)
     data["contact_tension_sorted"] = ("snap", peaks)
@@ -464,18 +466,22 @@ def _fit(
         return None, ()
     try:
         fit = fit_snaps(peaks, hours, threshold=0.1 * float(peaks.max()), law=settings.law, seed=sea.seed)
-    except InputError as error:
+    except (InputError, ConvergenceError) as error:
         text = f"{unit.name}, {sea.name}: no law was fitted to the snaps: {error.fault.message}"
         return None, (Notice("snap-no-fit", text, severity="information", remedy=error.fault.remedy),)
     return fit, fit.notices
 
 
-def _maximum(fit: SnapFit | None, hours: float) -> dict[str, float]:
+def _maximum(place: str, fit: SnapFit | None, hours: float) -> tuple[dict[str, float], tuple[Notice, ...]]:
+    """Return the most probable largest tension and its interval; not a number and a notice where there is none."""
     names = ("most_probable_maximum", "most_probable_maximum_low", "most_probable_maximum_high")
-    try:
-        found = None if fit is None else fit.most_probable_maximum(hours)
-    except InputError:
-        found = None
-    if found is None:
-        return dict.fromkeys(names, math.nan)
-    return dict(zip(names, (found.value, found.lower, found.upper)))
+    notices: tuple[Notice, ...] = ()
+    if fit is not None:
+        try:
+            found = fit.most_probable_maximum(hours)
+        except InputError as error:
+            text = f"{place}: no most probable largest tension: {error.fault.message}"
+            notices = (Notice("snap-no-maximum", text, severity="information", remedy=error.fault.remedy),)
+        else:
+            return dict(zip(names, (found.value, found.lower, found.upper))), notices
+    return dict.fromkeys(names, math.nan), notices
