@@ -118,7 +118,9 @@ def test_sheet_slack_along_one_edge_finds_its_rest(curvature: float, cells: int,
     assert network.sheets is not None
     pull, found = moment(network, rest.state.position, cells)
     assert found == pytest.approx(wrinkled_moment(pull, curvature, stiffness), rel=error)
-    assert np.count_nonzero(sheet_stress(network.sheets, rest.state.position).state == 0) > 0
+    # what bears nothing is slack, or pulls by rounding
+    pulls = sheet_stress(network.sheets, rest.state.position).first
+    assert np.count_nonzero(pulls < 1e-8 * pulls.max()) > 0
 
 
 def test_dynamic_relaxation_counts_the_pull_of_sheets() -> None:
