@@ -16,7 +16,7 @@ import numpy as np
 from moyai.case.yaml_text import decode
 from moyai.core.errors import CaseError, InputError
 from moyai.core.foreign_files import reads
-from moyai.core.quantities import QuantityKind
+from moyai.core.quantities import QuantityKind, check_unit
 from moyai.core.units import Unit, parse_unit
 from moyai.core.vocabulary import MEASURED_GROUP
 
@@ -63,7 +63,8 @@ def read_points(
     if missing:
         raise InputError(f"{path.name} has no column '{missing[0]}'", path=key, allowed=", ".join(names))
     for name, unit in headings:
-        _check_kind(name, unit, (kinds or {}).get(name), path, key)
+        if unit is not None and name in (kinds or {}):
+            check_unit(unit, ((kinds or {})[name],), f"{path.name}, column '{name}'", key)
     if len(rows) == 1:
         raise InputError(f"{path.name} has a header and no rows", path=key)
     table: dict[str, list[float]] = {name: [] for name in names}
@@ -222,16 +223,6 @@ def _heading(cell: str, path: Path, key: str) -> tuple[str, Unit | None]:
         raise InputError(
             f"{path.name}, column '{name}': {error.fault.message}", path=key, remedy=error.fault.remedy
         ) from None
-
-
-def _check_kind(name: str, unit: Unit | None, kind: QuantityKind | None, path: Path, key: str) -> None:
-    if kind is None or unit is None or unit.dimension == kind.dimension:
-        return
-    raise InputError(
-        f"{path.name}, column '{name}': '{unit.symbol}' is no unit of {kind.name}",
-        path=key,
-        allowed=f"for instance {kind.unit}",
-    )
 
 
 def _number(cell: str, unit: Unit | None, place: str, key: str) -> float:

@@ -16,6 +16,12 @@ Output = Annotated[
 AsJson = Annotated[bool, typer.Option("--json", help="Print JSON on standard output, errors included.")]
 Report = Annotated[bool, typer.Option(help="Write the report and its tables next to results.nc.")]
 Pdf = Annotated[bool, typer.Option("--pdf", help="Write the report as PDF too.")]
+TimeUnit = Annotated[
+    str, typer.Option("--time-unit", help="Unit of the time where its heading has none: s, ms, min, h, d, excel.")
+]
+Missing = Annotated[
+    list[str] | None, typer.Option("--missing", help="Sign that means 'no value', such as -99; repeat for more.")
+]
 Quiet = Annotated[bool, typer.Option("--quiet", "-q", help="No progress bars and no summary.")]
 
 

@@ -9,6 +9,7 @@ import typer
 
 from moyai.cli.console import OK, guard, print_json, say
 from moyai.cli.files import decimal_sign
+from moyai.cli.measured import Missing, TimeUnit
 
 
 def decay(
@@ -18,6 +19,8 @@ def decay(
     unit: Annotated[
         str, typer.Option("--unit", help="Unit of the motion where the heading has none: m, mm, deg.")
     ] = "",
+    time_unit: TimeUnit = "",
+    missing: Missing = None,
     start: Annotated[float | None, typer.Option("--start", help="First instant to use [s].")] = None,
     end: Annotated[float | None, typer.Option("--end", help="Last instant to use [s].")] = None,
     equilibrium: Annotated[
@@ -30,6 +33,7 @@ def decay(
 ) -> None:
     """Find natural period, linear and quadratic damping of a free decay."""
     with guard(as_json):
+        from moyai.core.quantities import ANGLE, LENGTH
         from moyai.records.reading.reader import read_record
         from moyai.records.reading.sources import ColumnSource, LoggerSource, TimeSource
         from moyai.records.survey.motions import fit_decay_record
@@ -37,8 +41,8 @@ def decay(
         source = LoggerSource(
             "decay",
             (file,),
-            (ColumnSource(column, "motion", unit),),
-            TimeSource((time or 1,)),
+            (ColumnSource(column, "motion", unit, missing=tuple(missing or ()), kinds=(LENGTH, ANGLE)),),
+            TimeSource((time or 1,), unit=time_unit),  # type: ignore[arg-type]
             format="csv",
             decimal=decimal_sign(decimal),
         )

@@ -10,6 +10,7 @@ import typer
 
 from moyai.cli.console import OK, guard, print_json, say
 from moyai.cli.files import decimal_sign
+from moyai.cli.measured import Missing, TimeUnit
 
 
 def tide(
@@ -23,6 +24,8 @@ def tide(
         bool, typer.Option("--dates", help="The time is written as dates, such as 2024-05-01 06:10.")
     ] = False,
     unit: Annotated[str, typer.Option("--unit", help="Unit where the heading has none: m, cm, m/s, cm/s.")] = "",
+    time_unit: TimeUnit = "",
+    missing: Missing = None,
     names: Annotated[
         list[str] | None,
         typer.Option("--constituent", help="Constituent such as M2, repeat; all that can be distinguished if absent."),
@@ -34,6 +37,7 @@ def tide(
     """Find mean, constituents and what they explain; no nodal corrections."""
     with guard(as_json):
         from moyai.core.errors import InputError
+        from moyai.core.quantities import LENGTH, PRESSURE, SPEED
         from moyai.records.reading.reader import read_record
         from moyai.records.reading.sources import ColumnSource, LoggerSource, TimeSource
         from moyai.records.survey.tides import fit_tide
@@ -42,12 +46,16 @@ def tide(
             raise InputError(
                 f"{len(column)} columns", path="--column", allowed="one (water level) or two (current along x and y)"
             )
+        kinds, signs = (LENGTH, PRESSURE, SPEED) if len(column) == 1 else (SPEED,), tuple(missing or ())
         record = read_record(
             LoggerSource(
                 "tide",
                 (file,),
-                tuple(ColumnSource(heading, name, unit) for heading, name in zip(column, ("x", "y"))),
-                TimeSource((time or 1,), form="iso" if dates else "number"),
+                tuple(
+                    ColumnSource(heading, name, unit, missing=signs, kinds=kinds)
+                    for heading, name in zip(column, ("x", "y"))
+                ),
+                TimeSource((time or 1,), form="iso" if dates else "number", unit=time_unit),  # type: ignore[arg-type]
                 format="csv",
                 decimal=decimal_sign(decimal),
             )

@@ -8,7 +8,7 @@ from __future__ import annotations
 import contextlib
 import math
 import re
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
 from pathlib import Path
@@ -19,6 +19,7 @@ from numpy.typing import NDArray
 
 from moyai.core.arrays import Array
 from moyai.core.errors import InputError
+from moyai.core.quantities import TIME, check_unit
 from moyai.core.units import Unit, parse_unit
 from moyai.core.validity import Notice
 from moyai.core.wording import counted
@@ -163,18 +164,50 @@ def _raw(path: Path, source: LoggerSource, rows: int) -> Iterator[RawChunk]:
     yield from readers[form](path, names, rows)
 
 
+def _stated_units(path: Path, source: LoggerSource, columns: Sequence[str | int]) -> list[str]:
+    """Return the units that a file states for columns, empty where it states none."""
+    form = source.format_of(path)
+    if form == "netcdf":
+        return read_arrays.netcdf_units(path, [str(column) for column in columns])
+    if form == "csv":
+        return [stated_unit(path, source, column) for column in columns]
+    if form == "parquet":
+        return [read_arrays.parquet_unit(path, str(column)) for column in columns]
+    return [""] * len(columns)
+
+
 def _units_of(path: Path, source: LoggerSource) -> list[tuple[Unit, str]]:
     """Return the units of all columns and their SI symbols."""
     form, columns = source.format_of(path), source.columns
-    if form == "netcdf":
-        stated = read_arrays.netcdf_units(path, [str(column.column) for column in columns])
-    elif form == "csv":
-        stated = [stated_unit(path, source, column.column) for column in columns]
-    elif form == "parquet":
-        stated = [read_arrays.parquet_unit(path, str(column.column)) for column in columns]
-    else:
-        stated = [""] * len(columns)
+    stated = _stated_units(path, source, [column.column for column in columns])
     return [_unit_of(path, form, column, unit) for column, unit in zip(columns, stated, strict=True)]
+
+
+def _seconds_of(path: Path, source: LoggerSource) -> float:
+    """Return the seconds in a unit of the time: of the configuration or of the heading, which must agree."""
+    time = source.time
+    if time.unit == "1":
+        return 1.0
+    stated = _stated_units(path, source, time.columns[:1])[0]
+    own = _parsed(_spelled(stated)) if stated not in ("", "1", "-") else None
+    place = f"{path.name}, column '{time.columns[0]}'"
+    if own is not None:
+        check_unit(own, (TIME,), place, "time.unit")
+        if time.unit and own.to_si(Fraction(1)) != SECONDS_PER.get(time.unit, 86400.0):
+            raise InputError(
+                f"{place} states the unit [{stated}] and the configuration says '{time.unit}'",
+                parameter="time.unit",
+                remedy="leave the unit of the time out, or correct the heading if it is wrong",
+            )
+        return own.to_si(Fraction(1))
+    if stated not in ("", "1", "-") and not time.unit:
+        raise InputError(
+            f"{place} states the unit [{stated}], which is not understood",
+            parameter="time.unit",
+            allowed="s, ms, us, ns, min, h, d",
+            remedy="give the unit of the time, or correct the heading",
+        )
+    return SECONDS_PER.get(time.unit or "s", 86400.0)
 
 
 def _unit_of(path: Path, form: str, column: ColumnSource, stated: str) -> tuple[Unit, str]:
@@ -186,6 +219,7 @@ def _unit_of(path: Path, form: str, column: ColumnSource, stated: str) -> tuple[
             unit = parse_unit(column.unit) if column.unit != "1" else parse_unit("%") ** 0
         except InputError as error:
             raise InputError(f"{place}: {error.fault.message}", parameter="unit", remedy=error.fault.remedy) from None
+        check_unit(unit, column.kinds, place, f"channels.{column.name}.unit")
         if own is not None and (own.factor, own.pi_power, own.dimension) != (
             unit.factor,
             unit.pi_power,
@@ -202,13 +236,20 @@ def _unit_of(path: Path, form: str, column: ColumnSource, stated: str) -> tuple[
             read_arrays.check_mat(path, str(column.column))
         reported = f"states the unit [{stated}], which is not understood" if stated else "states no unit"
         raise InputError(f"{place} {reported}", parameter=f"channels.{column.name}.unit", remedy="give 'unit'")
+    check_unit(own, column.kinds, place, f"channels.{column.name}.unit")
     return own, si_symbol(own)
+
+
+_SPELLINGS = {
+    "m": ("meter", "metre", "meters", "metres"), "deg": ("degree", "degrees"), "N m": ("Nm",),
+    "s": ("sec", "secs", "second", "seconds", "秒"), "ms": ("msec", "millisecond", "milliseconds", "ミリ秒"),
+    "min": ("minute", "minutes", "分"), "h": ("hr", "hrs", "hour", "hours", "時間"), "d": ("day", "days", "日"),
+}  # fmt: skip
 
 
 def _spelled(unit: str) -> str:
     """Return ``m s-1`` of CF files and ``degrees`` in our spelling."""
-    words = {"degree": "deg", "degrees": "deg", "meter": "m", "metre": "m", "meters": "m", "seconds": "s", "Nm": "N m"}
-    return words.get(unit.strip(), unit.strip())
+    return next((ours for ours, words in _SPELLINGS.items() if unit.strip() in words), unit.strip())
 
 
 def _parsed(unit: str) -> Unit | None:
@@ -245,12 +286,13 @@ class _LoggerClock:
         self.reference = source.clock.reference
         self.path = source.files[0]
         self.file_has_epoch = False
+        self.seconds = 1.0
 
     def open(self, path: Path) -> None:
         """Begin a file."""
         self.path = path
         form = self.source.format_of(path)
-        if not self.time.columns or self.time.form != "number" or form in ("csv", "mat"):
+        if not self.time.columns or self.time.form != "number":
             return
         column = str(self.time.columns[0])
         if form == "netcdf":
@@ -263,6 +305,8 @@ class _LoggerClock:
                     parameter="time.utc_offset",
                     remedy="leave 'utc_offset' out: it would count twice",
                 )
+        if not self.file_has_epoch:
+            self.seconds = _seconds_of(path, self.source)
         self.dated = self.dated or self.file_has_epoch
 
     def instants(self, raw: RawChunk) -> tuple[Array, NDArray[np.bool_] | None, tuple[Notice, ...]]:
@@ -292,7 +336,7 @@ class _LoggerClock:
             if source.unit in _DAYS_1970:
                 return (seconds - _DAYS_1970[source.unit]) * 86400.0 - source.utc_offset
             start = source.start if math.isfinite(source.start) else 0.0
-            return start + seconds * SECONDS_PER[source.unit]
+            return start + seconds * self.seconds
         return self._dates(columns, raw) - source.utc_offset
 
     def _dates(self, columns: list[NDArray[Any]], raw: RawChunk) -> Array:
