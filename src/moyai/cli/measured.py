@@ -2,13 +2,19 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Iterable
+from dataclasses import replace
 from pathlib import Path
-from typing import Annotated, Any, NoReturn
+from typing import TYPE_CHECKING, Annotated, Any, NoReturn
 
 import typer
 
-from moyai.cli.console import FAILED, OK, print_json, tell
+from moyai.cli.console import FAILED, OK, print_json, say, tell
+
+if TYPE_CHECKING:
+    from moyai.core.validity import Notice
+    from moyai.records.reading.record import Record
+    from moyai.records.reading.sources import LoggerSource
 
 Output = Annotated[
     Path | None, typer.Option("--output", "-o", help="Folder of the results; out/<name of the file> when absent.")
@@ -23,6 +29,33 @@ Missing = Annotated[
     list[str] | None, typer.Option("--missing", help="Sign that means 'no value', such as -99; repeat for more.")
 ]
 Quiet = Annotated[bool, typer.Option("--quiet", "-q", help="No progress bars and no summary.")]
+
+
+def sound_record(source: LoggerSource) -> Record:
+    """Read a record of one file whole, with notices of samples that are doubtful.
+
+    Raises
+    ------
+    InputError
+        Where a number seems to mean 'no value': one of them makes every result wrong.
+    """
+    from moyai.core.errors import InputError
+    from moyai.records.reading.doubts import STAND_IN, doubtful_samples
+    from moyai.records.reading.reader import read_record, row_of_sample
+
+    record = read_record(source)
+    for notice in record.notices:
+        if notice.code == STAND_IN:
+            remedy = f"add --missing {notice.value:g} if it means 'no value', or take it out of the file"
+            raise InputError(notice.message, path="--missing", remedy=remedy)
+    doubts = doubtful_samples(record, lambda row: row_of_sample(source.files[0], source, row))
+    return replace(record, notices=(*record.notices, *doubts))
+
+
+def say_notices(notices: Iterable[Notice]) -> None:
+    """Print notices with what can be done about them."""
+    for notice in notices:
+        say(f"{notice.severity}: {notice.message}" + (f"; {notice.remedy}" if notice.remedy else ""))
 
 
 def hand_back(

@@ -9,7 +9,7 @@ import typer
 
 from moyai.cli.console import OK, guard, print_json, say
 from moyai.cli.files import decimal_sign
-from moyai.cli.measured import Missing, TimeUnit
+from moyai.cli.measured import Missing, TimeUnit, say_notices, sound_record
 
 
 def decay(
@@ -34,7 +34,6 @@ def decay(
     """Find natural period, linear and quadratic damping of a free decay."""
     with guard(as_json):
         from moyai.core.quantities import ANGLE, LENGTH
-        from moyai.records.reading.reader import read_record
         from moyai.records.reading.sources import ColumnSource, LoggerSource, TimeSource
         from moyai.records.survey.motions import fit_decay_record
 
@@ -46,7 +45,7 @@ def decay(
             format="csv",
             decimal=decimal_sign(decimal),
         )
-        record = read_record(source)
+        record = sound_record(source)
         found = fit_decay_record(
             record.time,
             record["motion"],
@@ -56,6 +55,7 @@ def decay(
             smallest=smallest,
             quadratic=not linear,
         )
+        notices = (*record.notices, *found.notices)
         unit_of = record.units[0]
         if as_json:
             print_json(
@@ -70,7 +70,7 @@ def decay(
                     "start": found.start,
                     "end": found.end,
                     "swings": [float(value) for value in found.decay.extremes],
-                    "notices": [notice.as_dict() for notice in found.notices],
+                    "notices": [notice.as_dict() for notice in notices],
                     "faults": [],
                 }
             )
@@ -81,6 +81,5 @@ def decay(
             say(f"quadratic damping over inertia {quadratic:.4g} +- {error:.2g} 1/{unit_of or '1'}")
             say(f"equilibrium {found.equilibrium:.5g} {unit_of}")
             say(f"{found.decay.extremes.size} swings from {found.start:.5g} to {found.end:.5g} s")
-            for notice in found.notices:
-                say(f"{notice.severity}: {notice.message}")
+            say_notices(notices)
         raise typer.Exit(OK)

@@ -10,7 +10,7 @@ import typer
 
 from moyai.cli.console import OK, guard, print_json, say
 from moyai.cli.files import decimal_sign
-from moyai.cli.measured import Missing, TimeUnit
+from moyai.cli.measured import Missing, TimeUnit, say_notices, sound_record
 
 
 def tide(
@@ -38,7 +38,6 @@ def tide(
     with guard(as_json):
         from moyai.core.errors import InputError
         from moyai.core.quantities import LENGTH, PRESSURE, SPEED
-        from moyai.records.reading.reader import read_record
         from moyai.records.reading.sources import ColumnSource, LoggerSource, TimeSource
         from moyai.records.survey.tides import fit_tide
 
@@ -47,7 +46,7 @@ def tide(
                 f"{len(column)} columns", path="--column", allowed="one (water level) or two (current along x and y)"
             )
         kinds, signs = (LENGTH, PRESSURE, SPEED) if len(column) == 1 else (SPEED,), tuple(missing or ())
-        record = read_record(
+        record = sound_record(
             LoggerSource(
                 "tide",
                 (file,),
@@ -62,6 +61,7 @@ def tide(
         )
         current = len(column) == 2
         found = fit_tide(record.time, record["x"], record["y"] if current else None, names=names, trend=trend)
+        notices = (*record.notices, *found.notices)
         stated = record.units[0] or "1"
         if as_json:
             print_json(
@@ -83,7 +83,7 @@ def tide(
                         }
                         for one in found.ellipses
                     ],
-                    "notices": [notice.as_dict() for notice in found.notices],
+                    "notices": [notice.as_dict() for notice in notices],
                     "faults": [],
                 }
             )
@@ -99,6 +99,5 @@ def tide(
                 )
             else:
                 say(f"{one.name} ({one.period / 3600.0:.4f} h): {one.major:.4g} +- {one.error:.2g} {stated}, {phase}")
-        for notice in found.notices:
-            say(f"{notice.severity}: {notice.message}")
+        say_notices(notices)
         raise typer.Exit(OK)

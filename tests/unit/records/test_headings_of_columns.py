@@ -67,13 +67,13 @@ def test_decay_and_tide_take_the_unit_of_the_time(tmp_path, unit, seconds):
 
 def test_a_mass_is_no_force(tmp_path):
     path = write(tmp_path / "a.csv", "t [s],h [t]", np.arange(5.0), np.arange(5.0))
-    with pytest.raises(InputError, match="'t' is no unit of a force.*'t' is a mass: write 'kgf' or 'tf'"):
+    with pytest.raises(InputError, match=r"'t' is no unit of a force.*'t' is a mass: write 'kgf' or 'tf'"):
         read_record(source(path, kinds=(FORCE,)))
     write(path, "t [s],h [kn]", np.arange(5.0), np.arange(5.0))
     with pytest.raises(InputError, match="did you mean 'kN'"):
         read_record(source(path, kinds=(FORCE,)))
     write(path, "t [s],h [kPa]", np.arange(5.0), np.arange(5.0))
-    with pytest.raises(InputError, match="a.csv, column 'h': 'kPa' is no unit of a length; allowed: for instance m"):
+    with pytest.raises(InputError, match=r"a\.csv, column 'h': 'kPa' is no unit of a length; allowed: for instance m"):
         read_record(source(path, kinds=(LENGTH,)))
 
 
@@ -140,7 +140,7 @@ def test_rows_longer_than_the_headings_are_refused(tmp_path):
     with pytest.raises(InputError, match=message):
         read_rows(path)
     path.write_text("t [s],h [m]\n0.0,0.19\n0.1,0.18,7\n", encoding="utf-8")
-    with pytest.raises(InputError, match="a.csv line 3 has 3 cells for 2 headings"):
+    with pytest.raises(InputError, match=r"a\.csv line 3 has 3 cells for 2 headings"):
         read_rows(path)
     with pytest.raises(InputError, match="line 3 has 3 cells"):
         read_record(source(path))

@@ -164,3 +164,14 @@ def test_bad_records_are_refused(spoil, word):
     time, both, known = planted(5, samples_in_rise=60)
     with pytest.raises(InputError, match="names"):
         read(time, both, known, names=["upper"])
+
+
+@pytest.mark.parametrize("share", [0.5, 0.9])
+def test_a_saturated_load_cell_is_reported(share):
+    time, both, known = planted(3, samples_in_rise=200)
+    assert "snap-saturated" not in [notice.code for notice in read(time, both, known).notices]
+    level = np.median(both[0]) + share * (both[0].max() - np.median(both[0]))
+    both[0] = np.minimum(both[0], level)
+    found = next(notice for notice in read(time, both, known).notices if notice.code == "snap-saturated")
+    assert found.value == np.count_nonzero(both[0] == level) or share == 0.5
+    assert f"stand at the highest value, {level:.4g} N" in found.message

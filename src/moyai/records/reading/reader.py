@@ -24,6 +24,7 @@ from moyai.core.units import Unit, parse_unit
 from moyai.core.validity import Notice
 from moyai.core.wording import counted
 from moyai.records.reading import arrays as read_arrays
+from moyai.records.reading.doubts import find_stand_ins, stand_in_notice
 from moyai.records.reading.record import Record, concatenate, instant_text
 from moyai.records.reading.sources import SECONDS_PER, ColumnSource, LoggerSource
 from moyai.records.reading.text import RawChunk, line_of_row, read_text, stated_unit
@@ -110,7 +111,7 @@ def read_chunks(source: LoggerSource, rows: int = CHUNK_ROWS) -> Iterator[Record
     names = tuple(column.name for column in source.columns)
     clock = _LoggerClock(source)
     holds_value = np.zeros(len(names), dtype=bool)
-    seen = 0
+    seen, reported = 0, set[tuple[Path, str]]()
     for path in source.files:
         if not path.is_file():
             raise InputError(f"no such file: {path}", parameter="files")
@@ -124,6 +125,10 @@ def read_chunks(source: LoggerSource, rows: int = CHUNK_ROWS) -> Iterator[Record
                 ]
             )
             time, kept, notices = clock.instants(raw)
+            for column in source.columns:
+                if (path, column.name) not in reported and (doubts := _stand_ins(raw, column, path, source)):
+                    reported.add((path, column.name))
+                    notices = (*notices, *doubts)
             holds_value |= np.isfinite(values).any(axis=0)
             seen += len(raw)
             values = values if kept is None else values[kept]
@@ -137,6 +142,24 @@ def read_chunks(source: LoggerSource, rows: int = CHUNK_ROWS) -> Iterator[Record
             parameter=f"channels.{column.name}",
             remedy="check the column, and the signs of 'missing'",
         )
+
+
+def _stand_ins(raw: RawChunk, column: ColumnSource, path: Path, source: LoggerSource) -> tuple[Notice, ...]:
+    """Return notices of numbers in a column that seem to mean 'no value' and are not named so."""
+    found = find_stand_ins(_without_signs(raw.columns[column.column], column, source.decimal))
+    return tuple(
+        stand_in_notice(
+            f"{path.name}, column '{column.column}'", sign, count, row_of_sample(path, source, raw.first + row)
+        )
+        for sign, count, row in found
+    )
+
+
+def row_of_sample(path: Path, source: LoggerSource, row: int) -> str:
+    """Return where sample ``row`` (from 0) stands in a file: its line in a text, else its row."""
+    if source.format_of(path) == "csv":
+        return f"line {line_of_row(path, source, row)}"
+    return f"row {row + 1}"
 
 
 def _file_names(source: LoggerSource) -> str:
@@ -189,7 +212,7 @@ def _seconds_of(path: Path, source: LoggerSource) -> float:
     if time.unit == "1":
         return 1.0
     stated = _stated_units(path, source, time.columns[:1])[0]
-    own = _parsed(_spelled(stated)) if stated not in ("", "1", "-") else None
+    own = known_unit(stated) if stated not in ("", "1", "-") else None
     place = f"{path.name}, column '{time.columns[0]}'"
     if own is not None:
         check_unit(own, (TIME,), place, "time.unit")
@@ -213,7 +236,7 @@ def _seconds_of(path: Path, source: LoggerSource) -> float:
 def _unit_of(path: Path, form: str, column: ColumnSource, stated: str) -> tuple[Unit, str]:
     """Return the unit of a column and its SI symbol; what the file states and the configuration says must agree."""
     place = f"{path.name}, column '{column.column}'"
-    own = _parsed(_spelled(stated)) if stated else None
+    own = known_unit(stated) if stated else None
     if column.unit:
         try:
             unit = parse_unit(column.unit) if column.unit != "1" else parse_unit("%") ** 0
@@ -252,6 +275,11 @@ def _spelled(unit: str) -> str:
     return next((ours for ours, words in _SPELLINGS.items() if unit.strip() in words), unit.strip())
 
 
+def known_unit(stated: str) -> Unit | None:
+    """Return the unit that a heading states, dimensionless for ``-`` and ``1``; ``None`` where it is not understood."""
+    return _parsed(_spelled(stated))
+
+
 def _parsed(unit: str) -> Unit | None:
     try:
         return parse_unit("%") ** 0 if unit in ("1", "-") else parse_unit(unit)
@@ -259,13 +287,18 @@ def _parsed(unit: str) -> Unit | None:
         return None
 
 
-def _values(raw: NDArray[Any], column: ColumnSource, unit: Unit, decimal: str) -> Array:
+def _without_signs(raw: NDArray[Any], column: ColumnSource, decimal: str) -> Array:
+    """Return a column as the file has it, NaN where a sign means 'no value'."""
     values = np.asarray(raw, dtype=np.float64)
     for sign in column.missing:
         with contextlib.suppress(ValueError):  # a word, which the reader of texts has left out
             number = float(sign.replace(decimal, ".") if isinstance(sign, str) else sign)
             values = np.where(np.isclose(values, number, rtol=1e-6, atol=1e-9), np.nan, values)
-    values = np.where(np.isfinite(values), values, np.nan)
+    return np.where(np.isfinite(values), values, np.nan)
+
+
+def _values(raw: NDArray[Any], column: ColumnSource, unit: Unit, decimal: str) -> Array:
+    values = _without_signs(raw, column, decimal)
     factor = unit.to_si(Fraction(1))
     if column.scale == 1.0 and column.offset == 0.0:
         return values if factor == 1.0 else values * factor
@@ -428,9 +461,7 @@ class _LoggerClock:
         return time + clock.offset + clock.drift * (time - self.reference)
 
     def _place(self, raw: RawChunk, row: int) -> str:
-        if self.source.format_of(self.path) == "csv":
-            return f"{self.path.name} line {line_of_row(self.path, self.source, raw.first + row)}"
-        return f"{self.path.name} row {raw.first + row + 1}"
+        return f"{self.path.name} {row_of_sample(self.path, self.source, raw.first + row)}"
 
 
 @dataclass(frozen=True)
