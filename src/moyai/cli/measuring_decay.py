@@ -81,5 +81,6 @@ def decay(
             say(f"quadratic damping over inertia {quadratic:.4g} +- {error:.2g} 1/{unit_of or '1'}")
             say(f"equilibrium {found.equilibrium:.5g} {unit_of}")
             say(f"{found.decay.extremes.size} swings from {found.start:.5g} to {found.end:.5g} s")
+            say("+- is the standard error, over the half cycles left out one by one")
             say_notices(notices)
         raise typer.Exit(OK)

@@ -100,6 +100,7 @@ def flume(
                 f"{one['name']}: mean {one['mean']:.4g}, amplitude {one['amplitude']:.4g} +- "
                 f"{one['amplitude_spread']:.2g} {one['unit']}, phase {one['phase_deg']:.4g} deg"
             )
+        say("+- is how much a number moves while the whole periods slide in the window")
         say_notices(found.notices)
         raise typer.Exit(OK)
 

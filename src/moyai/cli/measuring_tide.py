@@ -38,6 +38,7 @@ def tide(
     with guard(as_json):
         from moyai.core.errors import InputError
         from moyai.core.quantities import LENGTH, PRESSURE, SPEED
+        from moyai.records.reading.record import instant_text
         from moyai.records.reading.sources import ColumnSource, LoggerSource, TimeSource
         from moyai.records.survey.tides import fit_tide
 
@@ -99,5 +100,6 @@ def tide(
                 )
             else:
                 say(f"{one.name} ({one.period / 3600.0:.4f} h): {one.major:.4g} +- {one.error:.2g} {stated}, {phase}")
+        say(f"phases count from {instant_text(found.reference, record.dated)}; +- is the standard error")
         say_notices(notices)
         raise typer.Exit(OK)
