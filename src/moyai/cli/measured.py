@@ -46,7 +46,7 @@ def sound_record(source: LoggerSource) -> Record:
     record = read_record(source)
     for notice in record.notices:
         if notice.code == STAND_IN:
-            remedy = f"add --missing {notice.value:g} if it means 'no value', or take it out of the file"
+            remedy = f"add --missing {notice.value:g}, or take it out of the file"
             raise InputError(notice.message, path="--missing", remedy=remedy)
     doubts = doubtful_samples(record, lambda row: row_of_sample(source.files[0], source, row))
     return replace(record, notices=(*record.notices, *doubts))

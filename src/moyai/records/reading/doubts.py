@@ -45,7 +45,7 @@ def find_stand_ins(values: Array) -> list[tuple[float, int, int]]:
     ]
 
 
-def stand_in_notice(place: str, sign: float, count: int, where: str) -> Notice:
+def stand_in_notice(place: str, sign: float, count: int, where: str, remedy: str) -> Notice:
     """Return the notice of a number that seems to mean 'no value'.
 
     Parameters
@@ -58,12 +58,14 @@ def stand_in_notice(place: str, sign: float, count: int, where: str) -> Notice:
         How often it was met.
     where : str
         Line or row of the first.
+    remedy : str
+        What to do if it does.
     """
     return Notice(
         STAND_IN,
-        f"{place} holds {counted(count, 'value')} of {sign:g} far outside of all others, the first in {where}",
+        f"{place} holds {counted(count, 'value')} of {sign:g} far outside of all others, the first in {where}; if it "
+        f"means 'no value', {remedy}",
         sign,
-        remedy=f"give {sign:g} under 'missing' if it means 'no value'",
     )
 
 

@@ -149,7 +149,11 @@ def _stand_ins(raw: RawChunk, column: ColumnSource, path: Path, source: LoggerSo
     found = find_stand_ins(_without_signs(raw.columns[column.column], column, source.decimal))
     return tuple(
         stand_in_notice(
-            f"{path.name}, column '{column.column}'", sign, count, row_of_sample(path, source, raw.first + row)
+            f"{path.name}, column '{column.column}'",
+            sign,
+            count,
+            row_of_sample(path, source, raw.first + row),
+            "name it under 'missing'",
         )
         for sign, count, row in found
     )

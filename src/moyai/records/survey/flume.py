@@ -6,7 +6,7 @@ import csv
 import math
 import re
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass, field
 from fractions import Fraction
 from pathlib import Path
 
@@ -246,10 +246,7 @@ def _in_si(source: str, names: Sequence[str], stated: Sequence[str], table: Arra
 def _stand_ins(source: str, names: Sequence[str], table: Array) -> tuple[Notice, ...]:
     """Return notices of numbers that seem to mean 'no value'."""
     return tuple(
-        replace(
-            stand_in_notice(f"{source}, column '{name}'", sign, count, f"row {row + 2}"),
-            remedy="empty the cells if it means 'no value'",
-        )
+        stand_in_notice(f"{source}, column '{name}'", sign, count, f"row {row + 2}", "empty these cells")
         for place, name in enumerate(names[1:], start=1)
         for sign, count, row in find_stand_ins(table[:, place])
     )
