@@ -31,6 +31,21 @@ Missing = Annotated[
 Quiet = Annotated[bool, typer.Option("--quiet", "-q", help="No progress bars and no summary.")]
 
 
+#: What a remedy says of the keys of a file of records, and what the commands of one record have in their place
+_IN_OPTIONS = (
+    ("'decimal: ", "add --decimal , where a comma is the decimal sign"),
+    ("under 'missing'", "name signs that mean 'no value' by --missing, and look at --decimal"),
+    ("'time.format'", "write the time in numbers; dates such as 2024-05-01 06:10 need --dates, which 'tide' has"),
+    ("%Y/%m/%d", "write dates such as 2024-05-01 06:10"),
+    ("'order: drop'", "sort or cut the file"),
+    ("give 'unit'", "add --unit, or write the unit into the heading"),
+    ("give the unit of the time", "add --time-unit, or correct the heading"),
+    ("leave the unit of the time out", "leave --time-unit out, or correct the heading if it is wrong"),
+    ("leave 'unit' out", "leave --unit out, or correct the heading if it is wrong"),
+    ("give 'encoding'", "save the file as UTF-8"),
+)
+
+
 def sound_record(source: LoggerSource) -> Record:
     """Read a record of one file whole, with notices of samples that are doubtful.
 
@@ -43,7 +58,11 @@ def sound_record(source: LoggerSource) -> Record:
     from moyai.records.reading.doubts import STAND_IN, doubtful_samples
     from moyai.records.reading.reader import read_record, row_of_sample
 
-    record = read_record(source)
+    try:
+        record = read_record(source)
+    except InputError as error:
+        remedy = next((ours for words, ours in _IN_OPTIONS if words in error.fault.remedy), error.fault.remedy)
+        raise InputError.of(replace(error.fault, remedy=remedy)) from None
     for notice in record.notices:
         if notice.code == STAND_IN:
             remedy = f"add --missing {notice.value:g}, or take it out of the file"

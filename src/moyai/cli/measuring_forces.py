@@ -104,6 +104,7 @@ def _print(found: Identification, result: Any, files: list[Path]) -> None:
     numbers = ", ".join(f"{number:.3g}" for number in found.keulegan_carpenter)
     say(f"period {found.period:.5g} s, {found.blocks} blocks, KC {numbers}")
     console.print(table)
+    say(f"+- is half of the {100.0 * found.setup.confidence:g} % interval")
     say_notices(result.notices)
     for path in files:
         if path.suffix != ".csv":

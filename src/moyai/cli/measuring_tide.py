@@ -46,6 +46,8 @@ def tide(
             raise InputError(
                 f"{len(column)} columns", path="--column", allowed="one (water level) or two (current along x and y)"
             )
+        if len(set(column)) < len(column):
+            raise InputError(f"the column '{column[0]}' is named twice", path="--column")
         kinds, signs = (LENGTH, PRESSURE, SPEED) if len(column) == 1 else (SPEED,), tuple(missing or ())
         record = sound_record(
             LoggerSource(

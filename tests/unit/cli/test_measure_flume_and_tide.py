@@ -215,3 +215,34 @@ def test_spikes_clipping_and_coarse_steps_of_a_decay_are_reported(tmp_path):
 def test_parts_of_a_decay_without_samples_are_refused(tmp_path, arguments):
     done = run("decay", decay_file(tmp_path), "--column", "heave", *arguments)
     assert done.exit_code == 2 and "allowed: 8 or more, within 0 to 23.95 s" in done.output
+
+
+@pytest.mark.parametrize(
+    ("text", "words"),
+    [
+        ("time [s];heave [m]\n0,0;0,1\n0,1;0,2\n", "add --decimal , where a comma is the decimal sign"),
+        ("time [s],heave [m]\n0.0,abc\n0.1,0.2\n", "name signs that mean 'no value' by --missing"),
+        ("time [s],heave\n0.0,0.1\n0.1,0.2\n", "add --unit, or write the unit into the heading"),
+        ("time [s],heave [m]\n0.0,0.1\n0.0,0.2\n", "does not come after 0 s; sort or cut the file\n"),
+        ("time [tick],heave [m]\n0.0,0.1\n0.1,0.2\n", "add --time-unit, or correct the heading"),
+        ("time [s],heave [m]\n2024-05-01,0.1\n2024-05-02,0.2\n", "need --dates"),
+    ],
+)
+def test_remedies_name_options_of_the_command(tmp_path, text, words):
+    (tmp_path / "d.csv").write_text(text, encoding="utf-8")
+    for command in ("decay", "tide"):
+        done = run(command, tmp_path / "d.csv", "--column", "heave")
+        assert done.exit_code == 2 and words in done.output
+
+
+def test_phases_errors_and_names_of_a_tide_are_said(tmp_path):
+    hours = np.arange(0.0, 30 * 24.0)
+    level = np.cos(np.radians(CONSTITUENTS["M2"]) * hours)
+    stamps = np.datetime_as_string(np.datetime64("2024-05-01") + (3600 * hours).astype("timedelta64[s]"))
+    rows = [f"{stamp},{value:.6f}" for stamp, value in zip(stamps, level)]
+    (tmp_path / "t.csv").write_text("\n".join(["time,level [m]", *rows]), encoding="utf-8")
+    done = run("tide", tmp_path / "t.csv", "--column", "level", "--dates", "--constituent", "m2", "--constituent", "M2")
+    # the middle of 719 h; M2 is at its top at the start
+    assert "phases count from 2024-05-15 23:30:00.000Z; +- is the standard error" in done.output
+    turn = (CONSTITUENTS["M2"] * 359.5 + 180.0) % 360.0 - 180.0
+    assert f"phase {-turn:.4g} deg" in done.output and "too short" not in done.output

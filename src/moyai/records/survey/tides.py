@@ -119,7 +119,8 @@ def fit_tide(
     InputError
         Unknown names, fewer samples than unknowns, or a record that separates no constituent.
     """
-    unknown = [name for name in names or () if name not in CONSTITUENTS]
+    names = [name.upper() for name in names or ()]
+    unknown = [name for name in names if name not in CONSTITUENTS]
     if unknown:
         raise InputError(f"unknown constituent '{unknown[0]}'", parameter="names", allowed=", ".join(CONSTITUENTS))
     t = np.asarray(time, dtype=float)
@@ -233,7 +234,11 @@ def _separable(
         notices.append(Notice("tide-gaps", message, loss, _LARGE_LOSS, remedy="take fewer constituents"))
     if not chosen:
         message = notices[0].message if notices else "no constituent is asked for"
-        raise InputError(f"a record of {length / 3600.0:.3g} h separates no constituents: {message}", parameter="time")
+        raise InputError(
+            f"a record of {length / 3600.0:.3g} h separates no constituents: {message}",
+            parameter="time",
+            remedy="check the unit of the time",
+        )
     return chosen, [*short, *mixed], notices
 
 
