@@ -5,12 +5,15 @@ import dataclasses
 import numpy as np
 import pytest
 
+from moyai.case.measured import read_points
+from moyai.core import quantities
+from moyai.core.errors import InputError
+from moyai.core.stand_ins import find_stand_ins
 from moyai.morison.nets import Net
 from moyai.records import load_survey, run_survey
 from moyai.records.nets.campaign import NetCampaign, measure_nets
 from moyai.records.nets.runs import Specimen, Tank
 from moyai.records.nets.synthesis import Rig, wave_run
-from moyai.records.reading.doubts import find_stand_ins
 from moyai.report.writer import write_report
 from moyai.series.plateaus import find_plateaus
 
@@ -65,6 +68,19 @@ def test_numbers_that_only_look_like_no_value_are_kept():
     assert find_stand_ins(np.arange(0.0, 120.0)) == []
     assert find_stand_ins(np.array([98.0, 99.0, 100.0, 101.0])) == []
     assert find_stand_ins(np.array([1.0, 2.0, 9999.0, np.nan, 9999.0, -99.9])) == [(-99.9, 1, 5), (9999.0, 2, 2)]
+
+
+def test_numbers_for_no_value_in_tests_of_members_nets_and_snaps_are_refused(tmp_path):
+    time = np.arange(0.0, 10.0, 0.1)
+    force = np.sin(time)
+    columns, kinds = {"t": "time", "f": "force"}, {"t": quantities.TIME, "f": quantities.FORCE}
+    for sign, unit in ((-99.0, "N"), (9999.0, "kgf"), (-99.9, "kN")):
+        force[40] = sign
+        path = tmp_path / "a.csv"
+        np.savetxt(path, np.column_stack([time, force]), "%.4f", ",", header=f"t [s],f [{unit}]", comments="")
+        with pytest.raises(InputError, match=rf"column 'f' holds 1 value of {sign:g} far outside of all others"):
+            read_points(path, columns, "record", kinds)
+        assert len(read_points(path, columns, "record")["force"]) == 100
 
 
 @pytest.mark.parametrize("zeroed", [False, True])

@@ -20,11 +20,12 @@ from numpy.typing import NDArray
 from moyai.core.arrays import Array
 from moyai.core.errors import InputError
 from moyai.core.quantities import TIME, check_unit
+from moyai.core.stand_ins import find_stand_ins
 from moyai.core.units import Unit, parse_unit
 from moyai.core.validity import Notice
 from moyai.core.wording import counted
 from moyai.records.reading import arrays as read_arrays
-from moyai.records.reading.doubts import find_stand_ins, stand_in_notice
+from moyai.records.reading.doubts import stand_in_notice
 from moyai.records.reading.record import Record, concatenate, instant_text
 from moyai.records.reading.sources import SECONDS_PER, ColumnSource, LoggerSource
 from moyai.records.reading.text import RawChunk, line_of_row, read_text, stated_unit

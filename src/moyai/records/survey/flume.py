@@ -16,8 +16,9 @@ from moyai.core.arrays import Array
 from moyai.core.errors import InputError
 from moyai.core.foreign_files import reads
 from moyai.core.quantities import LENGTH, TIME, check_unit
+from moyai.core.stand_ins import find_stand_ins
 from moyai.core.validity import Notice
-from moyai.records.reading.doubts import doubtful_samples, find_stand_ins, stand_in_notice
+from moyai.records.reading.doubts import doubtful_samples, stand_in_notice
 from moyai.records.reading.reader import known_unit, si_symbol
 from moyai.records.reading.record import Record
 from moyai.records.reading.text import SURPLUS_REMEDY
