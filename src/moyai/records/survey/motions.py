@@ -175,9 +175,9 @@ def _without_ripple(t: Array, v: Array, level: float) -> tuple[Array, float]:
     large = np.abs(above[1:-1]) > band
     slope = np.diff(v)
     turns = int(np.count_nonzero((slope[1:] * slope[:-1] <= 0.0) & large))  # steps of a coarse resolution count too
-    if swings < 2 or turns <= swings + 2:
+    crossings = np.flatnonzero(above[1:] * above[:-1] < 0.0)
+    if swings < 2 or turns <= swings + 2 or crossings.size < 2:
         return v, 0.0
-    crossings = np.flatnonzero(np.diff(np.signbit(above)))  # samples at rest count too
     length = 2.0 * float(t[crossings[-1]] - t[crossings[0]]) / max(swings - 1, 1) / 8.0
     step = float(np.median(np.diff(t)))
     if length < 5.0 * step:
