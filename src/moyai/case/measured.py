@@ -14,11 +14,14 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from moyai.case.yaml_text import decode
+from moyai.core.arrays import Array
 from moyai.core.errors import CaseError, InputError
 from moyai.core.foreign_files import reads
-from moyai.core.quantities import QuantityKind
+from moyai.core.quantities import QuantityKind, check_unit
+from moyai.core.stand_ins import find_stand_ins
 from moyai.core.units import Unit, parse_unit
 from moyai.core.vocabulary import MEASURED_GROUP
+from moyai.core.wording import counted
 
 if TYPE_CHECKING:
     from moyai.case.schema_measured import MeasuredPointsKeys
@@ -63,7 +66,8 @@ def read_points(
     if missing:
         raise InputError(f"{path.name} has no column '{missing[0]}'", path=key, allowed=", ".join(names))
     for name, unit in headings:
-        _check_kind(name, unit, (kinds or {}).get(name), path, key)
+        if unit is not None and name in (kinds or {}):
+            check_unit(unit, ((kinds or {})[name],), f"{path.name}, column '{name}'", key)
     if len(rows) == 1:
         raise InputError(f"{path.name} has a header and no rows", path=key)
     table: dict[str, list[float]] = {name: [] for name in names}
@@ -72,6 +76,11 @@ def read_points(
             raise InputError(f"{path.name} line {line} has {len(cells)} cells, its header {len(names)}", path=key)
         for (name, unit), cell in zip(headings, cells):
             table[name].append(_number(cell, unit, f"{path.name} line {line}, column '{name}'", key))
+    for name, unit in headings:
+        if name in (kinds or {}):
+            _refuse_stand_ins(
+                np.array(table[name]) / (1.0 if unit is None else unit.to_si(Fraction(1))), name, rows, path, key
+            )
     wanted = dict(columns) or {name: name for name in names}
     bad = next((target for target in wanted.values() if not _NAME.fullmatch(target)), None)
     if bad is not None:
@@ -224,14 +233,15 @@ def _heading(cell: str, path: Path, key: str) -> tuple[str, Unit | None]:
         ) from None
 
 
-def _check_kind(name: str, unit: Unit | None, kind: QuantityKind | None, path: Path, key: str) -> None:
-    if kind is None or unit is None or unit.dimension == kind.dimension:
-        return
-    raise InputError(
-        f"{path.name}, column '{name}': '{unit.symbol}' is no unit of {kind.name}",
-        path=key,
-        allowed=f"for instance {kind.unit}",
-    )
+def _refuse_stand_ins(values: Array, name: str, rows: list[tuple[int, list[str]]], path: Path, key: str) -> None:
+    """Refuse numbers that mean 'no value' by their look: one of them spoils every fit to a record."""
+    for sign, count, row in find_stand_ins(np.round(values, 9)):
+        raise InputError(
+            f"{path.name}, column '{name}' holds {counted(count, 'value')} of {sign:g} far outside of all others, the "
+            f"first in line {rows[row + 1][0]}",
+            path=key,
+            remedy="if it means 'no value', take these rows off the ends, or put values between their neighbours",
+        )
 
 
 def _number(cell: str, unit: Unit | None, place: str, key: str) -> float:

@@ -74,7 +74,7 @@ def fit(
                     continue
                 say(
                     f"  {entry['path']} = {entry['value']:.6g}{unit} +- {entry['standard_error']:.2g} "
-                    f"(95 %: {entry['lower']:.6g} to {entry['upper']:.6g})"
+                    f"(standard error; 95 %: {entry['lower']:.6g} to {entry['upper']:.6g})"
                 )
             say(f"  prediction less observation: mean {found.bias:.4g}, root mean square {found.rms:.4g}")
             for notice in result.notices:

@@ -9,6 +9,7 @@ import typer
 
 from moyai.cli.console import OK, guard, print_json, say
 from moyai.cli.files import decimal_sign
+from moyai.cli.measured import Missing, TimeUnit, say_notices, sound_record
 
 
 def decay(
@@ -18,6 +19,8 @@ def decay(
     unit: Annotated[
         str, typer.Option("--unit", help="Unit of the motion where the heading has none: m, mm, deg.")
     ] = "",
+    time_unit: TimeUnit = "",
+    missing: Missing = None,
     start: Annotated[float | None, typer.Option("--start", help="First instant to use [s].")] = None,
     end: Annotated[float | None, typer.Option("--end", help="Last instant to use [s].")] = None,
     equilibrium: Annotated[
@@ -30,19 +33,19 @@ def decay(
 ) -> None:
     """Find natural period, linear and quadratic damping of a free decay."""
     with guard(as_json):
-        from moyai.records.reading.reader import read_record
+        from moyai.core.quantities import ANGLE, LENGTH
         from moyai.records.reading.sources import ColumnSource, LoggerSource, TimeSource
         from moyai.records.survey.motions import fit_decay_record
 
         source = LoggerSource(
             "decay",
             (file,),
-            (ColumnSource(column, "motion", unit),),
-            TimeSource((time or 1,)),
+            (ColumnSource(column, "motion", unit, missing=tuple(missing or ()), kinds=(LENGTH, ANGLE)),),
+            TimeSource((time or 1,), unit=time_unit),  # type: ignore[arg-type]
             format="csv",
             decimal=decimal_sign(decimal),
         )
-        record = read_record(source)
+        record = sound_record(source)
         found = fit_decay_record(
             record.time,
             record["motion"],
@@ -52,6 +55,7 @@ def decay(
             smallest=smallest,
             quadratic=not linear,
         )
+        notices = (*record.notices, *found.notices)
         unit_of = record.units[0]
         if as_json:
             print_json(
@@ -66,7 +70,7 @@ def decay(
                     "start": found.start,
                     "end": found.end,
                     "swings": [float(value) for value in found.decay.extremes],
-                    "notices": [notice.as_dict() for notice in found.notices],
+                    "notices": [notice.as_dict() for notice in notices],
                     "faults": [],
                 }
             )
@@ -77,6 +81,6 @@ def decay(
             say(f"quadratic damping over inertia {quadratic:.4g} +- {error:.2g} 1/{unit_of or '1'}")
             say(f"equilibrium {found.equilibrium:.5g} {unit_of}")
             say(f"{found.decay.extremes.size} swings from {found.start:.5g} to {found.end:.5g} s")
-            for notice in found.notices:
-                say(f"{notice.severity}: {notice.message}")
+            say("+- is the standard error, over the half cycles left out one by one")
+            say_notices(notices)
         raise typer.Exit(OK)

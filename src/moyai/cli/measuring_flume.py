@@ -10,6 +10,7 @@ from typing import Annotated
 import typer
 
 from moyai.cli.console import OK, guard, print_json, say
+from moyai.cli.measured import say_notices
 from moyai.core.errors import InputError
 
 
@@ -99,8 +100,8 @@ def flume(
                 f"{one['name']}: mean {one['mean']:.4g}, amplitude {one['amplitude']:.4g} +- "
                 f"{one['amplitude_spread']:.2g} {one['unit']}, phase {one['phase_deg']:.4g} deg"
             )
-        for notice in found.notices:
-            say(f"{notice.severity}: {notice.message}")
+        say("+- is how much a number moves while the whole periods slide in the window")
+        say_notices(found.notices)
         raise typer.Exit(OK)
 
 

@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Annotated, Any
 import typer
 
 from moyai.cli.console import FAILED, OK, guard, print_json, put, rich_console, say
+from moyai.cli.measured import say_notices
 
 if TYPE_CHECKING:
     from moyai.records.forces.identification import Identification
@@ -103,8 +104,8 @@ def _print(found: Identification, result: Any, files: list[Path]) -> None:
     numbers = ", ".join(f"{number:.3g}" for number in found.keulegan_carpenter)
     say(f"period {found.period:.5g} s, {found.blocks} blocks, KC {numbers}")
     console.print(table)
-    for notice in result.notices:
-        say(f"{notice.severity}: {notice.message}" + (f"; {notice.remedy}" if notice.remedy else ""))
+    say(f"+- is half of the {100.0 * found.setup.confidence:g} % interval")
+    say_notices(result.notices)
     for path in files:
         if path.suffix != ".csv":
             put(f"  {path}")

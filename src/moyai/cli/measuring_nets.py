@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Annotated, Any
 import typer
 
 from moyai.cli.console import guard, progress_bars, put, rich_console, say
-from moyai.cli.measured import AsJson, Output, Pdf, Quiet, Report, hand_back
+from moyai.cli.measured import AsJson, Output, Pdf, Quiet, Report, hand_back, say_notices
 
 if TYPE_CHECKING:
     from moyai.records.nets.campaign import NetFindings
@@ -188,8 +188,9 @@ def _print(found: NetFindings, result: Any, files: list[Path]) -> None:
             for end in ends
         ],
     )
-    for notice in result.notices:
-        say(f"{notice.severity}: {notice.message}" + (f"; {notice.remedy}" if notice.remedy else ""))
+    if found.towing or found.waves:
+        say(f"+- is half of the {100.0 * found.campaign.confidence:g} % interval")
+    say_notices(result.notices)
     for path in files:
         if path.suffix != ".csv":
             put(f"  {path}")

@@ -10,6 +10,7 @@ import typer
 
 from moyai.cli.console import OK, guard, print_json, say
 from moyai.cli.files import decimal_sign
+from moyai.cli.measured import Missing, TimeUnit, say_notices, sound_record
 
 
 def tide(
@@ -23,6 +24,8 @@ def tide(
         bool, typer.Option("--dates", help="The time is written as dates, such as 2024-05-01 06:10.")
     ] = False,
     unit: Annotated[str, typer.Option("--unit", help="Unit where the heading has none: m, cm, m/s, cm/s.")] = "",
+    time_unit: TimeUnit = "",
+    missing: Missing = None,
     names: Annotated[
         list[str] | None,
         typer.Option("--constituent", help="Constituent such as M2, repeat; all that can be distinguished if absent."),
@@ -34,7 +37,8 @@ def tide(
     """Find mean, constituents and what they explain; no nodal corrections."""
     with guard(as_json):
         from moyai.core.errors import InputError
-        from moyai.records.reading.reader import read_record
+        from moyai.core.quantities import LENGTH, PRESSURE, SPEED
+        from moyai.records.reading.record import instant_text
         from moyai.records.reading.sources import ColumnSource, LoggerSource, TimeSource
         from moyai.records.survey.tides import fit_tide
 
@@ -42,18 +46,25 @@ def tide(
             raise InputError(
                 f"{len(column)} columns", path="--column", allowed="one (water level) or two (current along x and y)"
             )
-        record = read_record(
+        if len(set(column)) < len(column):
+            raise InputError(f"the column '{column[0]}' is named twice", path="--column")
+        kinds, signs = (LENGTH, PRESSURE, SPEED) if len(column) == 1 else (SPEED,), tuple(missing or ())
+        record = sound_record(
             LoggerSource(
                 "tide",
                 (file,),
-                tuple(ColumnSource(heading, name, unit) for heading, name in zip(column, ("x", "y"))),
-                TimeSource((time or 1,), form="iso" if dates else "number"),
+                tuple(
+                    ColumnSource(heading, name, unit, missing=signs, kinds=kinds)
+                    for heading, name in zip(column, ("x", "y"))
+                ),
+                TimeSource((time or 1,), form="iso" if dates else "number", unit=time_unit),  # type: ignore[arg-type]
                 format="csv",
                 decimal=decimal_sign(decimal),
             )
         )
         current = len(column) == 2
         found = fit_tide(record.time, record["x"], record["y"] if current else None, names=names, trend=trend)
+        notices = (*record.notices, *found.notices)
         stated = record.units[0] or "1"
         if as_json:
             print_json(
@@ -75,7 +86,7 @@ def tide(
                         }
                         for one in found.ellipses
                     ],
-                    "notices": [notice.as_dict() for notice in found.notices],
+                    "notices": [notice.as_dict() for notice in notices],
                     "faults": [],
                 }
             )
@@ -91,6 +102,6 @@ def tide(
                 )
             else:
                 say(f"{one.name} ({one.period / 3600.0:.4f} h): {one.major:.4g} +- {one.error:.2g} {stated}, {phase}")
-        for notice in found.notices:
-            say(f"{notice.severity}: {notice.message}")
+        say(f"phases count from {instant_text(found.reference, record.dated)}; +- is the standard error")
+        say_notices(notices)
         raise typer.Exit(OK)

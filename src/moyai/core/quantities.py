@@ -10,6 +10,7 @@ from __future__ import annotations
 
 import math
 import re
+from collections.abc import Sequence
 from dataclasses import dataclass
 from decimal import Decimal
 from fractions import Fraction
@@ -210,6 +211,40 @@ def to_si(value: Any, kind: QuantityKind, path: str = "") -> float:
         # Degrees to degrees and hertz to hertz stay exact
         return float(quantity.number * quantity.unit.factor / plain.factor)
     return plain.from_si(si)
+
+
+def check_unit(unit: Unit, kinds: Sequence[QuantityKind], place: str, path: str) -> None:
+    """Refuse the unit of a column that is of none of the kinds.
+
+    Parameters
+    ----------
+    unit : Unit
+        As the heading of the column or the configuration states it.
+    kinds : sequence of QuantityKind
+        What the column may be; empty for anything.
+    place : str
+        File and column, for the message.
+    path : str
+        Key or parameter, for the message.
+
+    Raises
+    ------
+    InputError
+        With the units that are allowed; for a mass in place of a force with the unit that is meant.
+    """
+    if not kinds or any(unit.dimension == kind.dimension for kind in kinds):
+        return
+    symbol = unit.symbol or "1"
+    if unit.dimension == MASS.dimension and any(kind.dimension == FORCE.dimension for kind in kinds):
+        remedy = f"'{symbol}' is a mass: write 'kgf' or 'tf' for the weight of a kilogram or a tonne"
+    else:
+        remedy = next((slip for slip in (_case_slip(symbol, kind) for kind in kinds) if slip), "")
+    raise InputError(
+        f"{place}: '{symbol}' is no unit of {' or '.join(kind.name for kind in kinds)}",
+        path=path,
+        allowed=f"for instance {', '.join(kind.unit for kind in kinds)}",
+        remedy=remedy,
+    )
 
 
 def from_si(value: float, unit: str) -> float:

@@ -17,6 +17,7 @@ from numpy.typing import ArrayLike, NDArray
 from moyai.core.arrays import Array
 from moyai.core.errors import InputError
 from moyai.core.validity import Notice
+from moyai.series.plateaus import find_plateaus
 
 _FEWEST_IN_RISE = 5
 # Peak above the noise below which no snap is distinguished from it
@@ -212,7 +213,7 @@ def read_snap(
     offset, drift, _ = fits[-1]
     both = CableSnap("sum", peak, peak_time, plateau, math.hypot(error, zero_errors[-1]), offset, drift, noise)
     found = MeasuredSnap(released, taut, peak_time, start, both, tuple(snaps), step, t, levelled, ())
-    notices = _check(found, slope, len(quiet), float(t[last]))
+    notices = (*_saturated(snaps, values), *_check(found, slope, len(quiet), float(t[last])))
     return MeasuredSnap(released, taut, peak_time, start, both, tuple(snaps), step, t, levelled, notices)
 
 
@@ -364,6 +365,22 @@ def _release(t: Array, total: Array, taut: float, noise: float, first: int) -> f
                 if misfit < best[0]:
                     best = (misfit, float(start))
     return best[1]
+
+
+def _saturated(snaps: Sequence[CableSnap], values: Array) -> list[Notice]:
+    """Return a notice of each load cell that stands at its highest value."""
+    tops = ((snap.name, plateau) for snap, row in zip(snaps, values) for plateau in find_plateaus(row) if plateau.top)
+    return [
+        Notice(
+            "snap-saturated",
+            f"{name}: {plateau.longest} samples in a row stand at the highest value, {plateau.level:.4g} N: the peak "
+            "may be higher",
+            float(plateau.longest),
+            remedy="use a load cell or an amplifier of a wider range",
+            source="samples at the extreme of a smooth record",
+        )
+        for name, plateau in tops
+    ]
 
 
 def _check(found: MeasuredSnap, slope: float, intervals: int, end: float) -> tuple[Notice, ...]:

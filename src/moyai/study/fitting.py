@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import contextlib
 import hashlib
 import math
 import os
@@ -18,8 +19,9 @@ from moyai.case.yaml_reader import CaseDocument, KeyPath, read_yaml
 from moyai.core.arrays import Array
 from moyai.core.errors import CaseError, Fault, InputError
 from moyai.core.progress import Progress, silent
-from moyai.core.quantities import parse_quantity
+from moyai.core.quantities import QuantityKind, check_unit, parse_quantity
 from moyai.core.results import Result, make_provenance
+from moyai.core.units import parse_unit
 from moyai.core.version import VERSION
 from moyai.core.wording import counted
 from moyai.records.calibration import Calibration, Parameter, calibrate
@@ -62,6 +64,8 @@ class StudyFit:
     step: float
     #: Name and hash of the file of observations.
     source: str
+    #: Columns of the observation and of its error with the units of their headings, empty where there are none.
+    stated: tuple[tuple[str, str], ...] = ()
 
 
 def load_fit(path: str | os.PathLike[str]) -> StudyFit:
@@ -138,11 +142,13 @@ def load_fit(path: str | os.PathLike[str]) -> StudyFit:
             tell(error, "parameters", name)
     if faults:
         raise CaseError(faults)
-    file = folder / block.observations.file
+    given = block.observations
+    file = folder / given.file
     digest = hashlib.sha256(file.read_bytes()).hexdigest()[:12]
     fit = StudyFit(
-        block.title, base, base_path, tuple(parameters), rows, block.observations.response, block.bootstrap,
+        block.title, base, base_path, tuple(parameters), rows, given.response, block.bootstrap,
         block.seed, block.step, f"{file.name} (sha256 {digest})",
+        tuple(column_of(read_rows(file), column, file) for column in (given.observed, given.error) if column),
     )  # fmt: skip
     for row in fit.rows[:: max(1, len(fit.rows) // 20)]:
         case_of(_document(fit, np.array([item.start for item, _ in fit.parameters]), row), fit.base_path)
@@ -203,6 +209,8 @@ def run_fit(fit: StudyFit, run: RunCase, progress: Progress = silent) -> tuple[R
             for number, row in enumerate(fit.rows):
                 progress(stage, number, len(fit.rows))
                 value, unit[0] = _predict(fit, run, values, row)
+                if not known and number == 0:
+                    _check_units(fit, unit[0])
                 out.append(value)
             progress(stage, len(fit.rows), len(fit.rows))
             if not known and len(set(out)) == 1 < len({row.changes for row in fit.rows}):
@@ -228,6 +236,21 @@ def run_fit(fit: StudyFit, run: RunCase, progress: Progress = silent) -> tuple[R
         progress=progress,
     )
     return _result(fit, found, unit[0]), found
+
+
+def _check_units(fit: StudyFit, unit: str) -> None:
+    """Refuse observations in units that the response cannot have."""
+    wrong = None
+    if "roll" in fit.response:  # an array of motions states metres, and roll stands in radians
+        return
+    with contextlib.suppress(InputError):  # a unit such as m/m is no product of units: nothing to compare
+        dimension = parse_unit(unit).dimension
+        response = QuantityKind(f"the response '{fit.response}'", unit, "", "")
+        units = [(column, parse_unit(stated)) for column, stated in fit.stated if stated]
+        wrong = next(((column, one) for column, one in units if one.dimension != dimension), None)
+    if wrong is not None:
+        place = f"{fit.source.rsplit(' (', 1)[0]}, column '{wrong[0]}'"
+        check_unit(wrong[1], (response,), place, "fit.observations.observed")
 
 
 def _predict(fit: StudyFit, run: RunCase, values: Array, row: ObservationRow) -> tuple[float, str]:

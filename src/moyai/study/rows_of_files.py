@@ -8,6 +8,7 @@ from pathlib import Path
 
 from moyai.core.errors import InputError
 from moyai.core.foreign_files import reads
+from moyai.records.reading.text import SURPLUS_REMEDY
 
 _HEADING = re.compile(r"(.*?)\s*\[([^\]]*)\]")
 
@@ -27,14 +28,27 @@ def read_rows(file: Path) -> list[dict[str, str]]:
         raise InputError(f"no such file: {file}", path="file") from None
     except (OSError, UnicodeDecodeError) as error:
         raise InputError(f"{file} cannot be read: {error}", path="file", remedy="save it as UTF-8") from None
-    lines = [line for line in text.splitlines() if line.strip() and not line.lstrip().startswith("#")]
-    if not lines:
-        raise InputError(f"{file} is empty", path="file")
-    delimiter = max(",;\t", key=lines[0].count)
-    rows = [
-        {str(key).strip(): value for key, value in row.items() if key is not None}
-        for row in csv.DictReader(lines, delimiter=delimiter)
+    kept = [
+        (number, line)
+        for number, line in enumerate(text.splitlines(), 1)
+        if line.strip() and not line.lstrip().startswith("#")
     ]
+    if not kept:
+        raise InputError(f"{file} is empty", path="file")
+    lines = [line for _, line in kept]
+    delimiter = max(",;\t", key=lines[0].count)
+    reader = csv.DictReader(lines, delimiter=delimiter, restkey="")
+    rows = []
+    for row in reader:
+        surplus = row.pop("", None)
+        if isinstance(surplus, list) and any(cell.strip() for cell in surplus):
+            width, line = len(reader.fieldnames or ()), kept[reader.line_num - 1][0]
+            raise InputError(
+                f"{file.name} line {line} has {width + len(surplus)} cells for {width} headings",
+                path="file",
+                remedy=SURPLUS_REMEDY,
+            )
+        rows.append({str(key).strip(): value for key, value in row.items()})
     if not rows:
         raise InputError(f"{file} has a header but no rows", path="file")
     return rows

@@ -94,3 +94,155 @@ def test_planted_constituents_of_a_level_and_a_current_come_back(tmp_path):
     assert read.exit_code == 0 and "M2 (12.42" in read.output
     wrong = run("tide", file, "--column", "level", "--constituent", "M9")
     assert wrong.exit_code == 2 and "unknown constituent" in wrong.output
+
+
+def changed(flume_file, change):
+    """Rewrite the record with other headings or columns."""
+    table = np.loadtxt(flume_file, delimiter=",", skiprows=1)
+    headings = flume_file.read_text().splitlines()[0].split(",")
+    change(headings, table)
+    np.savetxt(flume_file, table, "%.7f", ",", header=",".join(headings), comments="")
+    return flume_file
+
+
+def test_units_of_a_flume_record_are_taken(flume_file):
+    def in_mm_and_ms(headings, table):
+        headings[0], headings[5], headings[2] = "Time [ms]", "D [mm]", "A [cm]"
+        table[:, 0] *= 1e3
+        table[:, 5] *= 1e3
+        table[:, 2] *= 1e2
+
+    found = json.loads(flume(changed(flume_file, in_mm_and_ms), "--json").output)
+    assert found["incident_amplitude"] == pytest.approx(0.02, rel=2e-3)
+    assert found["transmission"] == pytest.approx(0.45, rel=5e-3)
+    assert {one["unit"] for one in found["channels"]} == {"m"}
+
+
+def rename(place, heading):
+    return lambda headings, table: headings.__setitem__(place, heading)
+
+
+def put(value, rows):
+    return lambda headings, table: table.__setitem__((rows, 3), value)
+
+
+def clip(headings, table):
+    np.clip(table[:, 3], -0.015, 0.015, out=table[:, 3])
+
+
+@pytest.mark.parametrize(
+    ("change", "code", "words"),
+    [
+        (rename(3, "B [kg]"), 2, "gauge 'B': 'kg' is no unit of a length"),
+        (rename(0, "Time [m]"), 2, "column 'Time': 'm' is no unit of a time"),
+        (put(0.1, slice(None)), 2, "gauge B does not change"),
+        (
+            put(-99.0, slice(2000, 2001)),
+            0,
+            "column 'B' holds 1 value of -99 far outside of all others, the first in row",
+        ),
+        (clip, 0, "B: stands"),
+    ],
+)
+def test_gauges_that_are_none_are_reported(flume_file, change, code, words):
+    assert "warning" not in flume(flume_file).output
+    done = flume(changed(flume_file, change))
+    assert done.exit_code == code and words in done.output
+
+
+def decay_file(tmp_path, change=lambda heave: heave):
+    time = np.arange(0.0, 24.0, 0.05)
+    heave = change(0.2 * np.exp(-0.03 * np.pi * time) * np.cos(np.pi * time))
+    np.savetxt(
+        tmp_path / "d.csv", np.column_stack([time, heave]), "%.5f", ",", header="time [s],heave [m]", comments=""
+    )
+    return tmp_path / "d.csv"
+
+
+def spoil(row, value):
+    def change(values):
+        values[row] = value
+        return values
+
+    return change
+
+
+@pytest.mark.parametrize("sign", [-99.0, 9999.0, -999.0])
+def test_numbers_for_no_value_are_refused_in_decays_and_tides(tmp_path, sign):
+    done = run("decay", decay_file(tmp_path, spoil(400, sign)), "--column", "heave")
+    assert (
+        done.exit_code == 2 and f"1 value of {sign:g} far outside of all others, the first in line 402" in done.output
+    )
+    assert f"--missing {sign:g}" in done.output
+    done = run("decay", tmp_path / "d.csv", "--column", "heave", "--missing", f"{sign:g}", "--end", 19.9)
+    assert done.exit_code == 0 and "damped period 2 +-" in done.output
+    time = np.arange(0.0, 30 * 24.0)
+    level = np.cos(np.radians(CONSTITUENTS["M2"]) * time)
+    level[100:120] = sign
+    np.savetxt(
+        tmp_path / "t.csv", np.column_stack([time, level]), "%.6f", ",", header="time [h],level [m]", comments=""
+    )
+    arguments = ("tide", tmp_path / "t.csv", "--column", "level", "--constituent", "M2")
+    assert "line 102" in run(*arguments).output
+    assert "explained 100 %" in run(*arguments, "--missing", f"{sign:g}").output
+
+
+def test_spikes_clipping_and_coarse_steps_of_a_decay_are_reported(tmp_path):
+    assert "warning" not in run("decay", decay_file(tmp_path), "--column", "heave").output
+    done = run("decay", decay_file(tmp_path, spoil(400, 0.5)), "--column", "heave", "--start", 0)
+    assert "1 sample far from the neighbours, the first in line 402: 0.5 m" in done.output
+    done = run("decay", decay_file(tmp_path, lambda heave: np.clip(heave, -0.08, 0.08)), "--column", "heave")
+    assert "stands 10 times at its limit, first at 0.08 m from line 2 on" in done.output
+    # what is rounded, or held before it is let go, is not clipped
+    done = run("decay", decay_file(tmp_path, lambda heave: np.round(heave, 2)), "--column", "heave")
+    assert "limit" not in done.output
+    done = run(
+        "decay",
+        decay_file(tmp_path, lambda heave: np.concatenate([np.full(80, 0.2), heave[:-80]])),
+        "--column",
+        "heave",
+    )
+    assert "limit" not in done.output
+    time = np.arange(0.0, 24.0, 1.5)
+    coarse = 0.2 * np.exp(-0.03 * np.pi * time) * np.cos(np.pi * time)
+    np.savetxt(
+        tmp_path / "d.csv", np.column_stack([time, coarse]), "%.5f", ",", header="time [s],heave [m]", comments=""
+    )
+    assert "a period holds 4 samples" in run("decay", tmp_path / "d.csv", "--column", "heave").output
+
+
+@pytest.mark.parametrize("arguments", [("--start", 100), ("--start", 10, "--end", 5), ("--end", 0.1)])
+def test_parts_of_a_decay_without_samples_are_refused(tmp_path, arguments):
+    done = run("decay", decay_file(tmp_path), "--column", "heave", *arguments)
+    assert done.exit_code == 2 and "allowed: 8 or more, within 0 to 23.95 s" in done.output
+
+
+@pytest.mark.parametrize(
+    ("text", "words"),
+    [
+        ("time [s];heave [m]\n0,0;0,1\n0,1;0,2\n", "add --decimal , where a comma is the decimal sign"),
+        ("time [s],heave [m]\n0.0,abc\n0.1,0.2\n", "name signs that mean 'no value' by --missing"),
+        ("time [s],heave\n0.0,0.1\n0.1,0.2\n", "add --unit, or write the unit into the heading"),
+        ("time [s],heave [m]\n0.0,0.1\n0.0,0.2\n", "does not come after 0 s; sort or cut the file\n"),
+        ("time [tick],heave [m]\n0.0,0.1\n0.1,0.2\n", "add --time-unit, or correct the heading"),
+        ("time [s],heave [m]\n2024-05-01,0.1\n2024-05-02,0.2\n", "need --dates"),
+    ],
+)
+def test_remedies_name_options_of_the_command(tmp_path, text, words):
+    (tmp_path / "d.csv").write_text(text, encoding="utf-8")
+    for command in ("decay", "tide"):
+        done = run(command, tmp_path / "d.csv", "--column", "heave")
+        assert done.exit_code == 2 and words in done.output
+
+
+def test_phases_errors_and_names_of_a_tide_are_said(tmp_path):
+    hours = np.arange(0.0, 30 * 24.0)
+    level = np.cos(np.radians(CONSTITUENTS["M2"]) * hours)
+    stamps = np.datetime_as_string(np.datetime64("2024-05-01") + (3600 * hours).astype("timedelta64[s]"))
+    rows = [f"{stamp},{value:.6f}" for stamp, value in zip(stamps, level)]
+    (tmp_path / "t.csv").write_text("\n".join(["time,level [m]", *rows]), encoding="utf-8")
+    done = run("tide", tmp_path / "t.csv", "--column", "level", "--dates", "--constituent", "m2", "--constituent", "M2")
+    # the middle of 719 h; M2 is at its top at the start
+    assert "phases count from 2024-05-15 23:30:00.000Z; +- is the standard error" in done.output
+    turn = (CONSTITUENTS["M2"] * 359.5 + 180.0) % 360.0 - 180.0
+    assert f"phase {-turn:.4g} deg" in done.output and "too short" not in done.output

@@ -125,3 +125,55 @@ def test_principal_axis_and_faults():
         fit_tide(np.arange(100.0), np.arange(100.0))
     with pytest.raises(InputError, match="bin"):
         mean_profile([1.0, 2.0], np.full((2, 4), np.nan), np.full((2, 4), np.nan), top=5.0)
+
+
+def planted_tide(hours):
+    return sum(a * np.cos(np.radians(CONSTITUENTS[name]) * hours - p) for name, a, p in PLANTED)
+
+
+PLANTED = (("M2", 1.0, 0.3), ("S2", 0.4, 1.0))
+SAMPLINGS = {
+    "even": np.arange(30 * 24.0),
+    "two days a month apart": np.concatenate([np.arange(24.0), np.arange(28 * 24.0, 29 * 24.0)]),
+    "three days and one sample": np.append(np.arange(72.0), 720.0),
+    "daylight": np.array([24.0 * day + hour for day in range(30) for hour in range(8, 18)]),
+}
+
+
+@pytest.mark.parametrize("current", [False, True])
+@pytest.mark.parametrize("case", SAMPLINGS)
+def test_the_error_of_a_constituent_covers_the_truth(case, current):
+    """Monte Carlo: the standard error is the scatter over records, and 1.96 of it hold the truth in 90 to 98 %."""
+    hours, rng = SAMPLINGS[case], np.random.default_rng(5)
+    found, stated = [], []
+    for _ in range(300):
+        level = planted_tide(hours) + 0.05 * rng.standard_normal(hours.size)
+        across = 0.05 * rng.standard_normal(hours.size) if current else None
+        fit = fit_tide(3600.0 * hours, level, across, names=["M2", "S2"])
+        assert [ellipse.name for ellipse in fit.ellipses] == ["M2", "S2"]
+        found.append([ellipse.major for ellipse in fit.ellipses])
+        stated.append([ellipse.error for ellipse in fit.ellipses])
+    np.testing.assert_allclose(np.sqrt(np.mean(np.square(stated), axis=0)), np.std(found, axis=0), rtol=0.12)
+    covered = np.mean(np.abs(np.array(found) - [1.0, 0.4]) < 1.96 * np.array(stated), axis=0)
+    assert (covered > 0.90).all() and (covered < 0.985).all()
+    if case == "even":  # sigma sqrt(2/n) in white noise without gaps, of a level as of a current
+        np.testing.assert_allclose(np.mean(stated, axis=0), 0.05 * np.sqrt(2.0 / hours.size), rtol=0.03)
+    gaps = [notice for notice in fit.notices if notice.code == "tide-gaps"]
+    assert bool(gaps) == (case in ("two days a month apart", "three days and one sample"))
+
+
+def test_constituents_that_the_sampling_folds_together_are_left_out():
+    # every 12 h S2 stands still; 12.5 h is so near to M2 that it turns once in 81 days
+    hours = 12.0 * np.arange(60.0)
+    fit = fit_tide(3600.0 * hours, planted_tide(hours), names=["M2", "S2"])
+    assert fit.left_out == ("S2",) and [notice.code for notice in fit.notices] == ["tide-sampling"]
+    assert "the 12 h between samples" in fit.notices[0].message
+    assert fit.ellipses[0].major == pytest.approx(1.0, rel=1e-6)
+    hours = 12.5 * np.arange(40.0)
+    with pytest.raises(InputError, match="make M2 look like larger neighbours or like the mean"):
+        fit_tide(3600.0 * hours, planted_tide(hours), names=["M2"])
+
+
+def test_a_gauge_that_stands_still_has_no_tide():
+    with pytest.raises(InputError, match="all 100 samples are 1"):
+        fit_tide(np.arange(100.0) * 3600.0, np.ones(100), names=["M2"])

@@ -190,3 +190,14 @@ def test_the_error_of_the_plateau_holds_that_of_the_zero(drift):
     exact = 0.2 * math.sqrt(0.5 * math.pi * (zero + 1.0 / 1700.0))
     assert math.sqrt(np.mean(np.square(stated))) == pytest.approx(exact, rel=0.15)
     assert np.mean(np.abs(found) <= 2.0 * np.array(stated)) > 0.85
+
+
+@pytest.mark.parametrize("share", [0.5, 0.9])
+def test_a_saturated_load_cell_is_reported(share):
+    time, both, known = planted(3, samples_in_rise=200)
+    assert "snap-saturated" not in [notice.code for notice in read(time, both, known).notices]
+    level = np.median(both[0]) + share * (both[0].max() - np.median(both[0]))
+    both[0] = np.minimum(both[0], level)
+    found = next(notice for notice in read(time, both, known).notices if notice.code == "snap-saturated")
+    assert found.value == np.count_nonzero(both[0] == level) or share == 0.5
+    assert f"stand at the highest value, {level:.4g} N" in found.message

@@ -146,7 +146,11 @@ FAULTS = {
     "unknown channel": ("channels: [level], detrend", "channels: [levle], detrend", "there is no channel 'levle'"),
     "wrong kind": ("waves: level, lines", "waves: J-1, lines", "'J-1' is of kind 'tension'"),
     "unknown key": ("crest: sample", "crests: sample", "crests"),
-    "wrong unit": ("unit: kN, kind: tension", "unit: cm, kind: tension", "is no unit of a channel of kind 'tension'"),
+    "wrong unit": (
+        "unit: kN, kind: tension",
+        "unit: cm, kind: tension",
+        "of kind 'tension': 'cm' is no unit of a force",
+    ),
     "no such unit": ("unit: kN, kind: tension", "unit: kNm/, kind: tension", "unit"),
     "no file": ("file: tension.parquet", "file: tensoin.parquet", "no such file"),
     "empty band": ("lowest: 0.05 Hz", "lowest: 0.7 Hz", "the band is empty"),

@@ -186,3 +186,23 @@ def test_columns_that_do_not_move_the_response_are_refused(tmp_path):
     text = TEXT.replace(columns, "Tp: 'waves[storm].peak_enhancement'").replace("    units: {{Hs: m, Tp: s}}\n", "")
     with pytest.raises(InputError, match="for every row, whatever the columns set"):
         run_fit(load_fit(write(tmp_path, text=text)), study_cases.linear_case)
+
+
+@pytest.mark.parametrize("unit", ["kg", "m", "kn"])
+def test_observations_in_units_that_the_response_cannot_have_are_refused(tmp_path, unit):
+    path = write(tmp_path)
+    table = (tmp_path / "observed.csv").read_text(encoding="utf-8")
+    (tmp_path / "observed.csv").write_text(table.replace("tension", f"tension [{unit}]", 1), encoding="utf-8")
+    with pytest.raises(
+        InputError, match=rf"observed.csv, column 'tension \[{unit}\]': '{unit}' is no unit of the resp"
+    ):
+        run_fit(load_fit(path), study_cases.linear_case)
+
+
+def test_rows_of_observations_longer_than_the_headings_are_refused(tmp_path):
+    path = write(tmp_path)
+    table = (tmp_path / "observed.csv").read_text(encoding="utf-8").splitlines()
+    table[3] += ",7"
+    (tmp_path / "observed.csv").write_text("\n".join(table), encoding="utf-8")
+    with pytest.raises(CaseError, match=r"observed\.csv line 4 has 5 cells for 4 headings"):
+        load_fit(path)

@@ -199,7 +199,7 @@ def _read(path: Path, coordinate: str, decimal: str, wanted: Set[str]) -> tuple[
             scale = 1.0
     stated = names[place]
     try:
-        number = TimeSource((place + 1,))
+        number = TimeSource((place + 1,), unit="1")
         record = read_record(LoggerSource("record", (path,), columns, number, format="csv", decimal=decimal))
     except InputError:
         if unit:

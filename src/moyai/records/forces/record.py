@@ -10,6 +10,7 @@ import numpy as np
 
 from moyai.core.arrays import Array
 from moyai.core.errors import InputError
+from moyai.series.plateaus import find_plateaus
 
 #: Departure from an even time step that is forgiven, in steps
 _STEP_TOLERANCE = 0.02
@@ -19,8 +20,6 @@ _LEAST_SAMPLES = 12
 _WAVES_OF_SEGMENT, _LEAST_SEGMENTS, _MOST_SEGMENTS, _CHANCE = 4.0, 5, 12, 1e-3
 #: Order of the filter that cuts noise, and periods of its frequency for which it rings
 _ORDER, _RING = 6, 4.0
-#: Equal samples at an extreme from which on a gauge may be called clipped
-_LEAST_PLATEAU = 4
 
 
 @dataclass(frozen=True, eq=False)
@@ -152,30 +151,12 @@ def _refuse_uneven(time: Array) -> None:
 
 def _refuse_clipped(values: Array, name: str) -> None:
     """Refuse flat tops that a smooth record rounded to the resolution of its gauge would not show."""
-    span = float(np.ptp(values))
-    if span == 0.0:
-        return
-    # the step of the gauge: no two different readings lie closer; rounding of the text is not a step
-    gaps = np.diff(np.sort(values))
-    quantum = float(gaps[gaps > 1e-9 * span].min())
-    centred = values - values.mean()
-    crossings = int(np.count_nonzero(np.diff(np.signbit(centred))))
-    period = 2.0 * values.size / max(crossings, 1)
-    for sign, word in ((1.0, "top"), (-1.0, "bottom")):
-        extreme = float((sign * values).max())
-        flat = sign * values >= extreme - 1e-12 * span
-        edges = np.flatnonzero(np.diff(np.concatenate([[0], flat.astype(int), [0]])))
-        runs = edges[1::2] - edges[::2]
-        longest = int(runs.max())
-        amplitude = float(np.maximum(abs(sign * extreme - float(values.mean())), quantum))
-        # how long a sine stays within one step of the gauge at its crest
-        natural = period / math.pi * math.acos(1.0 - quantum / amplitude)
-        if longest >= _LEAST_PLATEAU and longest > 2.0 * natural + 2.0:
-            raise InputError(
-                f"{name} is clipped: it stays at its {word} {sign * extreme:.6g} for {longest} samples",
-                parameter=name.split()[0],
-                remedy="use a record within the range of the gauge",
-            )
+    for plateau in find_plateaus(values):
+        raise InputError(
+            f"{name} is clipped: it stays at its {plateau.word} {plateau.level:.6g} for {plateau.longest} samples",
+            parameter=name.split()[0],
+            remedy="use a record within the range of the gauge",
+        )
 
 
 def acceleration_of(velocity: Array, step: float) -> Array:

@@ -269,7 +269,7 @@ def wave_coefficients(
         modelled=value[0] * inertia_column + value[1] * drag_column,
         raw=whole.raw,
     )
-    return coefficients, (*whole.notices, *_notices(whole, coefficients))
+    return coefficients, (*whole.notices, *_notices(whole, coefficients, tank))
 
 
 def _covariance(fitted: WaveFit) -> tuple[Array, float]:
@@ -298,7 +298,7 @@ def _covariance(fitted: WaveFit) -> tuple[Array, float]:
     return np.asarray(blocks * np.outer(rise, rise)), freedom
 
 
-def _notices(whole: WaveFit, found: WaveCoefficients) -> list[Notice]:
+def _notices(whole: WaveFit, found: WaveCoefficients, tank: Tank) -> list[Notice]:
     notices = []
     for symbol, known, value, half, remedy in (
         ("C_M", found.inertia_known, found.inertia, found.inertia_half_width, "a smaller Keulegan-Carpenter number"),
@@ -317,6 +317,33 @@ def _notices(whole: WaveFit, found: WaveCoefficients) -> list[Notice]:
                 UNKNOWN_SHARE,
                 "information" if symbol == "C_M" else "warning",
                 f"use a longer record or {remedy}",
+            )
+        )
+    for symbol, known, value in (("C_M", found.inertia_known, found.inertia), ("C_D", found.drag_known, found.drag)):
+        if known and value < 0.0:
+            notices.append(
+                Notice(
+                    "net-coefficient-negative",
+                    f"run {found.run}: {symbol} of net {found.net} is {value:.3g}: the force is against the flow",
+                    value,
+                    0.0,
+                    "warning",
+                    "check the signs of force and velocity (reverse_force), the frame's run and the phase",
+                )
+            )
+    fastest = math.sqrt(tank.gravity * tank.water_depth)
+    if whole.run.kind == "waves":
+        fastest = min(fastest, tank.gravity * found.period / (2.0 * math.pi))
+    if found.velocity_amplitude > fastest:
+        notices.append(
+            Notice(
+                "net-velocity",
+                f"run {found.run}: the velocity of {found.velocity_amplitude:.3g} m/s is faster than the wave, whose "
+                f"crest moves at {fastest:.3g} m/s at most",
+                found.velocity_amplitude,
+                fastest,
+                "warning",
+                "check the unit in the heading of the velocity, and the water depth",
             )
         )
     kept = {"few-periods", "identification-aperiodic-velocity", "identification-collinear"}

@@ -8,7 +8,7 @@ from __future__ import annotations
 import contextlib
 import math
 import re
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
 from pathlib import Path
@@ -19,10 +19,13 @@ from numpy.typing import NDArray
 
 from moyai.core.arrays import Array
 from moyai.core.errors import InputError
+from moyai.core.quantities import TIME, check_unit
+from moyai.core.stand_ins import find_stand_ins
 from moyai.core.units import Unit, parse_unit
 from moyai.core.validity import Notice
 from moyai.core.wording import counted
 from moyai.records.reading import arrays as read_arrays
+from moyai.records.reading.doubts import stand_in_notice
 from moyai.records.reading.record import Record, concatenate, instant_text
 from moyai.records.reading.sources import SECONDS_PER, ColumnSource, LoggerSource
 from moyai.records.reading.text import RawChunk, line_of_row, read_text, stated_unit
@@ -109,7 +112,7 @@ def read_chunks(source: LoggerSource, rows: int = CHUNK_ROWS) -> Iterator[Record
     names = tuple(column.name for column in source.columns)
     clock = _LoggerClock(source)
     holds_value = np.zeros(len(names), dtype=bool)
-    seen = 0
+    seen, reported = 0, set[tuple[Path, str]]()
     for path in source.files:
         if not path.is_file():
             raise InputError(f"no such file: {path}", parameter="files")
@@ -123,6 +126,10 @@ def read_chunks(source: LoggerSource, rows: int = CHUNK_ROWS) -> Iterator[Record
                 ]
             )
             time, kept, notices = clock.instants(raw)
+            for column in source.columns:
+                if (path, column.name) not in reported and (doubts := _stand_ins(raw, column, path, source)):
+                    reported.add((path, column.name))
+                    notices = (*notices, *doubts)
             holds_value |= np.isfinite(values).any(axis=0)
             seen += len(raw)
             values = values if kept is None else values[kept]
@@ -136,6 +143,28 @@ def read_chunks(source: LoggerSource, rows: int = CHUNK_ROWS) -> Iterator[Record
             parameter=f"channels.{column.name}",
             remedy="check the column, and the signs of 'missing'",
         )
+
+
+def _stand_ins(raw: RawChunk, column: ColumnSource, path: Path, source: LoggerSource) -> tuple[Notice, ...]:
+    """Return notices of numbers in a column that seem to mean 'no value' and are not named so."""
+    found = find_stand_ins(_without_signs(raw.columns[column.column], column, source.decimal))
+    return tuple(
+        stand_in_notice(
+            f"{path.name}, column '{column.column}'",
+            sign,
+            count,
+            row_of_sample(path, source, raw.first + row),
+            "name it under 'missing'",
+        )
+        for sign, count, row in found
+    )
+
+
+def row_of_sample(path: Path, source: LoggerSource, row: int) -> str:
+    """Return where sample ``row`` (from 0) stands in a file: its line in a text, else its row."""
+    if source.format_of(path) == "csv":
+        return f"line {line_of_row(path, source, row)}"
+    return f"row {row + 1}"
 
 
 def _file_names(source: LoggerSource) -> str:
@@ -163,29 +192,62 @@ def _raw(path: Path, source: LoggerSource, rows: int) -> Iterator[RawChunk]:
     yield from readers[form](path, names, rows)
 
 
+def _stated_units(path: Path, source: LoggerSource, columns: Sequence[str | int]) -> list[str]:
+    """Return the units that a file states for columns, empty where it states none."""
+    form = source.format_of(path)
+    if form == "netcdf":
+        return read_arrays.netcdf_units(path, [str(column) for column in columns])
+    if form == "csv":
+        return [stated_unit(path, source, column) for column in columns]
+    if form == "parquet":
+        return [read_arrays.parquet_unit(path, str(column)) for column in columns]
+    return [""] * len(columns)
+
+
 def _units_of(path: Path, source: LoggerSource) -> list[tuple[Unit, str]]:
     """Return the units of all columns and their SI symbols."""
     form, columns = source.format_of(path), source.columns
-    if form == "netcdf":
-        stated = read_arrays.netcdf_units(path, [str(column.column) for column in columns])
-    elif form == "csv":
-        stated = [stated_unit(path, source, column.column) for column in columns]
-    elif form == "parquet":
-        stated = [read_arrays.parquet_unit(path, str(column.column)) for column in columns]
-    else:
-        stated = [""] * len(columns)
+    stated = _stated_units(path, source, [column.column for column in columns])
     return [_unit_of(path, form, column, unit) for column, unit in zip(columns, stated, strict=True)]
+
+
+def _seconds_of(path: Path, source: LoggerSource) -> float:
+    """Return the seconds in a unit of the time: of the configuration or of the heading, which must agree."""
+    time = source.time
+    if time.unit == "1":
+        return 1.0
+    stated = _stated_units(path, source, time.columns[:1])[0]
+    own = known_unit(stated) if stated not in ("", "1", "-") else None
+    place = f"{path.name}, column '{time.columns[0]}'"
+    if own is not None:
+        check_unit(own, (TIME,), place, "time.unit")
+        if time.unit and own.to_si(Fraction(1)) != SECONDS_PER.get(time.unit, 86400.0):
+            raise InputError(
+                f"{place} states the unit [{stated}] and the configuration says '{time.unit}'",
+                parameter="time.unit",
+                remedy="leave the unit of the time out, or correct the heading if it is wrong",
+            )
+        return own.to_si(Fraction(1))
+    if stated not in ("", "1", "-") and not time.unit:
+        raise InputError(
+            f"{place} states the unit [{stated}], which is not understood",
+            parameter="time.unit",
+            allowed="s, ms, us, ns, min, h, d",
+            remedy="give the unit of the time, or correct the heading",
+        )
+    return SECONDS_PER.get(time.unit or "s", 86400.0)
 
 
 def _unit_of(path: Path, form: str, column: ColumnSource, stated: str) -> tuple[Unit, str]:
     """Return the unit of a column and its SI symbol; what the file states and the configuration says must agree."""
     place = f"{path.name}, column '{column.column}'"
-    own = _parsed(_spelled(stated)) if stated else None
+    own = known_unit(stated) if stated else None
     if column.unit:
         try:
             unit = parse_unit(column.unit) if column.unit != "1" else parse_unit("%") ** 0
         except InputError as error:
             raise InputError(f"{place}: {error.fault.message}", parameter="unit", remedy=error.fault.remedy) from None
+        check_unit(unit, column.kinds, place, f"channels.{column.name}.unit")
         if own is not None and (own.factor, own.pi_power, own.dimension) != (
             unit.factor,
             unit.pi_power,
@@ -202,13 +264,25 @@ def _unit_of(path: Path, form: str, column: ColumnSource, stated: str) -> tuple[
             read_arrays.check_mat(path, str(column.column))
         reported = f"states the unit [{stated}], which is not understood" if stated else "states no unit"
         raise InputError(f"{place} {reported}", parameter=f"channels.{column.name}.unit", remedy="give 'unit'")
+    check_unit(own, column.kinds, place, f"channels.{column.name}.unit")
     return own, si_symbol(own)
+
+
+_SPELLINGS = {
+    "m": ("meter", "metre", "meters", "metres"), "deg": ("degree", "degrees"), "N m": ("Nm",),
+    "s": ("sec", "secs", "second", "seconds", "秒"), "ms": ("msec", "millisecond", "milliseconds", "ミリ秒"),
+    "min": ("minute", "minutes", "分"), "h": ("hr", "hrs", "hour", "hours", "時間"), "d": ("day", "days", "日"),
+}  # fmt: skip
 
 
 def _spelled(unit: str) -> str:
     """Return ``m s-1`` of CF files and ``degrees`` in our spelling."""
-    words = {"degree": "deg", "degrees": "deg", "meter": "m", "metre": "m", "meters": "m", "seconds": "s", "Nm": "N m"}
-    return words.get(unit.strip(), unit.strip())
+    return next((ours for ours, words in _SPELLINGS.items() if unit.strip() in words), unit.strip())
+
+
+def known_unit(stated: str) -> Unit | None:
+    """Return the unit that a heading states, dimensionless for ``-`` and ``1``; ``None`` where it is not understood."""
+    return _parsed(_spelled(stated))
 
 
 def _parsed(unit: str) -> Unit | None:
@@ -218,13 +292,18 @@ def _parsed(unit: str) -> Unit | None:
         return None
 
 
-def _values(raw: NDArray[Any], column: ColumnSource, unit: Unit, decimal: str) -> Array:
+def _without_signs(raw: NDArray[Any], column: ColumnSource, decimal: str) -> Array:
+    """Return a column as the file has it, NaN where a sign means 'no value'."""
     values = np.asarray(raw, dtype=np.float64)
     for sign in column.missing:
         with contextlib.suppress(ValueError):  # a word, which the reader of texts has left out
             number = float(sign.replace(decimal, ".") if isinstance(sign, str) else sign)
             values = np.where(np.isclose(values, number, rtol=1e-6, atol=1e-9), np.nan, values)
-    values = np.where(np.isfinite(values), values, np.nan)
+    return np.where(np.isfinite(values), values, np.nan)
+
+
+def _values(raw: NDArray[Any], column: ColumnSource, unit: Unit, decimal: str) -> Array:
+    values = _without_signs(raw, column, decimal)
     factor = unit.to_si(Fraction(1))
     if column.scale == 1.0 and column.offset == 0.0:
         return values if factor == 1.0 else values * factor
@@ -245,12 +324,13 @@ class _LoggerClock:
         self.reference = source.clock.reference
         self.path = source.files[0]
         self.file_has_epoch = False
+        self.seconds = 1.0
 
     def open(self, path: Path) -> None:
         """Begin a file."""
         self.path = path
         form = self.source.format_of(path)
-        if not self.time.columns or self.time.form != "number" or form in ("csv", "mat"):
+        if not self.time.columns or self.time.form != "number":
             return
         column = str(self.time.columns[0])
         if form == "netcdf":
@@ -263,6 +343,8 @@ class _LoggerClock:
                     parameter="time.utc_offset",
                     remedy="leave 'utc_offset' out: it would count twice",
                 )
+        if not self.file_has_epoch:
+            self.seconds = _seconds_of(path, self.source)
         self.dated = self.dated or self.file_has_epoch
 
     def instants(self, raw: RawChunk) -> tuple[Array, NDArray[np.bool_] | None, tuple[Notice, ...]]:
@@ -292,7 +374,7 @@ class _LoggerClock:
             if source.unit in _DAYS_1970:
                 return (seconds - _DAYS_1970[source.unit]) * 86400.0 - source.utc_offset
             start = source.start if math.isfinite(source.start) else 0.0
-            return start + seconds * SECONDS_PER[source.unit]
+            return start + seconds * self.seconds
         return self._dates(columns, raw) - source.utc_offset
 
     def _dates(self, columns: list[NDArray[Any]], raw: RawChunk) -> Array:
@@ -384,9 +466,7 @@ class _LoggerClock:
         return time + clock.offset + clock.drift * (time - self.reference)
 
     def _place(self, raw: RawChunk, row: int) -> str:
-        if self.source.format_of(self.path) == "csv":
-            return f"{self.path.name} line {line_of_row(self.path, self.source, raw.first + row)}"
-        return f"{self.path.name} row {raw.first + row + 1}"
+        return f"{self.path.name} {row_of_sample(self.path, self.source, raw.first + row)}"
 
 
 @dataclass(frozen=True)

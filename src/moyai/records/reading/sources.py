@@ -9,9 +9,10 @@ from typing import Literal
 
 from moyai.core.errors import InputError
 from moyai.core.options import checks_words
+from moyai.core.quantities import QuantityKind
 
 Format = Literal["auto", "csv", "mat", "netcdf", "parquet"]
-TimeUnit = Literal["s", "ms", "us", "ns", "min", "h", "d", "datenum", "excel"]
+TimeUnit = Literal["", "1", "s", "ms", "us", "ns", "min", "h", "d", "datenum", "excel"]
 
 SECONDS_PER = {"s": 1.0, "ms": 1e-3, "us": 1e-6, "ns": 1e-9, "min": 60.0, "h": 3600.0, "d": 86400.0}
 ENDINGS = {
@@ -52,6 +53,8 @@ class ColumnSource:
     offset: float = 0.0
     #: Numbers and words that mean "no value"; a word that is a number (``"-99"``) is read as that number too.
     missing: tuple[float | str, ...] = ()
+    #: What the column may be, by its unit; empty for anything.
+    kinds: tuple[QuantityKind, ...] = ()
 
     def __post_init__(self) -> None:
         if isinstance(self.missing, (str, float, int)):
@@ -80,8 +83,9 @@ class TimeSource:
     columns: tuple[str | int, ...] = ()
     #: ``number``, ``iso``, or a pattern such as ``%Y/%m/%d %H:%M:%S.%f``.
     form: str = "number"
-    #: Unit of a number: seconds and its relatives, or MATLAB's ``datenum``, or ``excel``: days of a spreadsheet.
-    unit: TimeUnit = "s"
+    #: Unit of a number: seconds and its relatives, or MATLAB's ``datenum``, or ``excel``: days of a spreadsheet. Empty
+    #: takes the one that the file states, seconds where it states none; ``1`` takes numbers as they stand.
+    unit: TimeUnit = ""
     #: Instant added to numbers [s since 1970 UTC], NaN for a logger's own clock.
     start: float = math.nan
     #: Sampling rate [Hz], NaN where the stamps alone count. With stamps to the whole second, samples are spread evenly

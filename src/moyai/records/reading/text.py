@@ -24,6 +24,10 @@ from moyai.records.reading.sources import LoggerSource
 _UNIT = re.compile(r"^(?P<name>.*?)\s*[\[\(](?P<unit>[^\[\]\(\)]*)[\]\)]\s*$")
 _ENCODINGS = ("utf-8-sig", "cp932")
 _SAMPLE = 65536
+SURPLUS_REMEDY = (
+    "name every column; where the comma is the decimal sign, write decimal points or semicolons between the columns"
+)
+"""What to do about a row with more cells than there are headings."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -107,7 +111,7 @@ class TextLayout:
     headings: tuple[str, ...]
     #: Lines before the first sample.
     skipped: int
-    #: Number of columns.
+    #: Number of columns, without empty ones at the end.
     width: int
 
 
@@ -152,7 +156,21 @@ def find_layout(path: Path, source: LoggerSource) -> TextLayout:
         if header > len(lines):
             raise InputError(f"{path.name} has no line {header}", parameter="header_row")
         headings = tuple(cell.strip().strip('"') for cell in _heading_cells(heading, delimiter))
-    return TextLayout(encoding, delimiter, headings, first - 1, len(_cells(body[0], delimiter)))
+    cells = _cells(body[0], delimiter)
+    while len(cells) > max(len(headings), 1) and not cells[-1].strip():
+        cells.pop()
+    return TextLayout(encoding, delimiter, headings, first - 1, len(cells))
+
+
+def _refuse_surplus(path: Path, source: LoggerSource, layout: TextLayout) -> None:
+    """Refuse rows that hold more cells than there are headings: a cell would be read under the wrong one."""
+    if layout.headings and layout.width > len(layout.headings):
+        line = _line_of(path, layout, source.comment, 0)
+        raise InputError(
+            f"{path.name} line {line} has {layout.width} cells for {len(layout.headings)} headings",
+            parameter="file",
+            remedy=SURPLUS_REMEDY,
+        )
 
 
 def _heading_cells(line: str, delimiter: str) -> list[str]:
@@ -237,6 +255,17 @@ def read_text(
     places: dict[str | int, int] = {}
     for column in (*stamps, *wanted):
         places[column] = place_of(column, layout.headings, layout.width, path.name)
+    if source.first_row == 0 or not all(isinstance(column, int) for column in places):
+        _refuse_surplus(path, source, layout)
+    beyond = next((column for column, place in places.items() if place >= layout.width), None)
+    if beyond is not None:
+        line = _line_of(path, layout, source.comment, 0)
+        raise InputError(
+            f"{path.name} line {line} has {layout.width} cells for {len(layout.headings)} headings, and none for the "
+            f"column '{beyond}'",
+            parameter="file",
+            remedy="check the headings and the delimiter",
+        )
     kinds: dict[int, Any] = {places[column]: str for column in stamps}
     first = 0
     try:
@@ -266,7 +295,8 @@ def read_text(
     except pd.errors.EmptyDataError:
         raise InputError(f"{path.name} has no samples", parameter="file") from None
     except pd.errors.ParserError as error:
-        raise InputError(f"{path.name}: {_parser_words(str(error), layout.skipped)}", parameter="file") from None
+        words, remedy = _parser_words(str(error))
+        raise InputError(f"{path.name}: {words}", parameter="file", remedy=remedy) from None
     except UnicodeDecodeError as error:
         raise InputError(
             f"{path.name} is not {layout.encoding}: {error.reason}",
@@ -275,11 +305,12 @@ def read_text(
         ) from None
 
 
-def _parser_words(text: str, skipped: int) -> str:
+def _parser_words(text: str) -> tuple[str, str]:
+    """Return what pandas says of a row that is too long in our words, with its remedy."""
     match = re.search(r"Expected (\d+) fields in line (\d+), saw (\d+)", text)
     if match:
-        return f"line {int(match[2])} has {match[3]} cells, the lines before {match[1]}"
-    return text.strip()
+        return f"line {int(match[2])} has {match[3]} cells, the lines before {match[1]}", SURPLUS_REMEDY
+    return text.strip(), ""
 
 
 def _numbers(

@@ -425,11 +425,16 @@ def _tensions(
         time, values = time[known], values[known]
         rate = 1.0 / float(np.median(np.diff(time)))
         split = split_tension(time, values, use.steady, cutoff=use.cutoff)
-        row = {"steady": split.level, "snap_count": math.nan}
+        _sign_of_tension(use.channel, values, notices)
+        of_waves = dict.fromkeys(("maximum", "tenth", "third", "mean", "waves", "lag"), math.nan)
+        row = {"steady": split.level, "snap_count": math.nan} | of_waves
         if math.isfinite(use.snap_limit):
             above = split.fluctuating > use.snap_limit
             row["snap_count"] = float(np.count_nonzero(above[1:] & ~above[:-1]))
-        if waves is not None and len(waves):
+        if waves is None or not len(waves):
+            words = f"{use.channel}: {survey.wave_of_tensions} shows no waves in a block: no tensions of waves"
+            notices.append(Notice("tension-waves", words))
+        else:
             lag = survey.tension_lag + _refined_lag(survey, data, found, split.fluctuating)
             statistics = tension_statistics(
                 wave_maxima(time, split.fluctuating, waves.start, waves.period, delay=lag).maximum
@@ -448,6 +453,17 @@ def _tensions(
             notices.append(Notice("tension-sampling", message, rate, SLOWEST_TENSION_RATE, remedy=remedy))
         out[use.channel] = row
     return out
+
+
+def _sign_of_tension(channel: str, values: Array, notices: list[Notice]) -> None:
+    """Say when a line would push: its gauge is reversed, or its zero is wrong."""
+    lowest, highest = float(values.min()), float(values.max())
+    if lowest < -2.0 * max(highest, 0.0):
+        words = (
+            f"{channel}: tensions from {lowest:.4g} to {highest:.4g} N, but a line does not push: reverse the channel "
+            "with 'scale: -1', or correct its zero with 'offset'"
+        )
+        notices.append(Notice("tension-sign", words, lowest, 0.0))
 
 
 def _responses(survey: Survey, data: _Samples, notices: list[Notice]) -> dict[str, ResponseFunction]:

@@ -7,6 +7,7 @@ import math
 import re
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
+from fractions import Fraction
 from pathlib import Path
 
 import numpy as np
@@ -14,7 +15,13 @@ import numpy as np
 from moyai.core.arrays import Array
 from moyai.core.errors import InputError
 from moyai.core.foreign_files import reads
+from moyai.core.quantities import LENGTH, TIME, check_unit
+from moyai.core.stand_ins import find_stand_ins
 from moyai.core.validity import Notice
+from moyai.records.reading.doubts import doubtful_samples, stand_in_notice
+from moyai.records.reading.reader import known_unit, si_symbol
+from moyai.records.reading.record import Record
+from moyai.records.reading.text import SURPLUS_REMEDY
 from moyai.records.survey.reflection import Separation, separate_waves
 from moyai.sea.dispersion import group_velocity, wave_number
 from moyai.sea.water import Water
@@ -31,9 +38,10 @@ class FlumeRecord:
     time: Array
     #: Name of each channel.
     names: tuple[str, ...]
-    #: Unit of each channel; empty where the file states none.
+    #: SI unit of each channel; empty where the file states none, as stated where it is not understood.
     units: tuple[str, ...]
-    #: Values as stored; missing ones are NaN; shape (samples, channels).
+    #: In SI where the heading states a unit that is understood, else as stored; missing ones are NaN; shape (samples,
+    #: channels).
     values: Array
     #: What was found odd while reading: missing units, missing values, uneven steps.
     notices: tuple[Notice, ...] = ()
@@ -172,7 +180,9 @@ def read_flume_record(path: str | Path, *, units: Mapping[str, str] | None = Non
     if not file.is_file():
         raise InputError(f"no such file: {file}", parameter="record")
     with file.open(newline="", encoding="utf-8-sig") as stream:
-        rows = list(csv.reader(stream))
+        delimiter = max(",;\t", key=stream.readline().count)
+        stream.seek(0)
+        rows = list(csv.reader(stream, delimiter=delimiter))
     if len(rows) < 3:
         raise InputError(
             f"{file.name} holds {max(len(rows) - 1, 0)} rows of data", parameter="record", allowed="two or more"
@@ -181,7 +191,9 @@ def read_flume_record(path: str | Path, *, units: Mapping[str, str] | None = Non
     for number, row in enumerate(body, start=2):
         if len(row) != len(heading):
             raise InputError(
-                f"{file.name}: row {number} has {len(row)} columns, the heading {len(heading)}", parameter="record"
+                f"{file.name}: row {number} has {len(row)} columns, the heading {len(heading)}",
+                parameter="record",
+                remedy=SURPLUS_REMEDY,
             )
     table, unreadable = _numbers(body)
     if not heading[0].strip() and len(heading) > 2 and heading[1].strip().lower().startswith("time"):
@@ -192,19 +204,88 @@ def read_flume_record(path: str | Path, *, units: Mapping[str, str] | None = Non
     labels = [_HEADING.match(label) for label in heading]
     names = [label["name"] if label else "" for label in labels]
     stated = [(label["unit"] or "").strip() if label else "" for label in labels]
-    given = dict(units or {})
-    channel_units = tuple(given.get(name, unit) for name, unit in zip(names[1:], stated[1:]))
+    given = {"": "", **(units or {})}
+    stated = [unit or given.get(name, "") for name, unit in zip(names, stated)]
+    doubts = _stand_ins(file.name, names, table)
+    channel_units = _in_si(file.name, names, stated, table)
     time = table[:, 0]
     bad = np.flatnonzero(~np.isfinite(time))
     if bad.size:
         raise InputError(
-            f"{file.name}: row {bad[0] + 2}, column {column}: time is missing or not a number", parameter="record"
+            f"{file.name}: row {bad[0] + 2}, column {column}: time is missing or not a number",
+            parameter="record",
+            remedy="write numbers with a decimal point, dates as seconds",
         )
     back = np.flatnonzero(np.diff(time) <= 0.0)
     if back.size:
         raise InputError(f"{file.name}: row {back[0] + 3}, column {column}: time does not increase", parameter="record")
-    notices = _reading_notices(file.name, time, names, channel_units, table[:, 1:], unreadable)
+    notices = (*_reading_notices(file.name, time, names, channel_units, table[:, 1:], unreadable), *doubts)
     return FlumeRecord(time, tuple(names[1:]), channel_units, table[:, 1:], notices, file.name)
+
+
+def _in_si(source: str, names: Sequence[str], stated: Sequence[str], table: Array) -> tuple[str, ...]:
+    """Turn the columns of a table into SI units, and return those of the channels; unknown units stay as they are."""
+    out = []
+    for place, (name, text) in enumerate(zip(names, stated)):
+        unit = known_unit(text) if text else None
+        if place == 0 and text:
+            where = f"{source}, column '{name}'"
+            if unit is None:
+                raise InputError(
+                    f"{where} states the unit [{text}], which is not understood",
+                    parameter="record",
+                    allowed="s, ms, min",
+                    remedy="correct the heading",
+                )
+            check_unit(unit, (TIME,), where, "record")
+        if unit is not None:
+            table[:, place] *= unit.to_si(Fraction(1))
+        out.append(text if unit is None else si_symbol(unit))
+    return tuple(out[1:])
+
+
+def _stand_ins(source: str, names: Sequence[str], table: Array) -> tuple[Notice, ...]:
+    """Return notices of numbers that seem to mean 'no value'."""
+    return tuple(
+        stand_in_notice(f"{source}, column '{name}'", sign, count, f"row {row + 2}", "empty these cells")
+        for place, name in enumerate(names[1:], start=1)
+        for sign, count, row in find_stand_ins(table[:, place])
+    )
+
+
+def _gauge_notices(record: FlumeRecord, layout: FlumeLayout, window: RecordWindow) -> tuple[Notice, ...]:
+    """Refuse gauges that are none, and return notices of their doubtful samples in the window."""
+    gauges = tuple(dict.fromkeys((*layout.front, *layout.behind)))
+    absent = [name for name in gauges if name not in record.names]
+    if absent:
+        raise InputError(
+            f"{record.source} has no gauge {', '.join(absent)}", parameter="gauges", allowed=", ".join(record.names)
+        )
+    units = [record.units[record.names.index(name)] for name in gauges]
+    for name, unit in zip(gauges, units):
+        other = next((one for one in units if one), unit)
+        known = known_unit(unit) if unit else None
+        if known is not None:
+            check_unit(known, (LENGTH,), f"{record.source}, gauge '{name}'", "gauges")
+        if unit not in ("", other):
+            raise InputError(
+                f"{record.source}, gauge '{name}' is in {unit}, gauge '{gauges[0]}' in {other}",
+                parameter="gauges",
+                allowed="one unit for all",
+            )
+    inside = np.flatnonzero((record.time >= window.start) & (record.time <= window.end))
+    values = np.column_stack([record.channel(name)[inside] for name in gauges])
+    if len(inside):
+        dead = [name for name, column in zip(gauges, values.T) if not np.nanmax(column) > np.nanmin(column)]
+        if dead:
+            raise InputError(
+                f"{record.source}: gauge {', '.join(dead)} does not change from {window.start:.4g} to "
+                f"{window.end:.4g} s",
+                parameter="gauges",
+                remedy="leave the gauge out",
+            )
+    part = Record(record.time[inside], values, gauges, tuple(units), source=record.source)
+    return doubtful_samples(part, lambda row: f"row {inside[row] + 2}")
 
 
 def _numbers(body: Sequence[Sequence[str]]) -> tuple[Array, int]:
@@ -343,6 +424,7 @@ def analyse_regular_run(
     omega = 2.0 * math.pi / period
     window = useful_window(layout, water, period, start=start, ramp_periods=ramp_periods)
     number = float(wave_number(omega, water.depth, water.gravity))
+    doubts = _gauge_notices(record, layout, window)
     end = min(window.end, float(record.time[-1]) + record.step)
     fits = sliding_fits(record.time, record.values, omega, count=harmonics, start=window.start, end=end)
     waves = [_coefficients(record, layout, fit, number) for fit in fits]
@@ -362,7 +444,7 @@ def analyse_regular_run(
         transmission_spread=max(abs(wave[2] - transmission) for wave in waves),
         incident_spread=max(abs(float(np.abs(wave[0].incident[0])) - incident) for wave in waves),
         names=record.names,
-        notices=(*record.notices, *separation.notices),
+        notices=(*record.notices, *doubts, *separation.notices),
     )
 
 
@@ -371,11 +453,6 @@ def _coefficients(
 ) -> tuple[Separation, float, float]:
     """Return the separation and the moduli of reflection and transmission."""
     first = dict(zip(record.names, fit.first))
-    absent = [name for name in (*layout.front, *layout.behind) if name not in first]
-    if absent:
-        raise InputError(
-            f"{record.source} has no gauge {', '.join(absent)}", parameter="gauges", allowed=", ".join(record.names)
-        )
     positions = [layout.gauges[name] - layout.model for name in layout.front]
     separation = separate_waves(positions, [first[name] for name in layout.front], number)
     incident = float(np.abs(separation.incident[0]))

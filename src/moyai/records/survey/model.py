@@ -10,6 +10,7 @@ from typing import Literal
 from moyai.core.arrays import Array
 from moyai.core.errors import InputError
 from moyai.core.options import checks_words
+from moyai.core.quantities import ACCELERATION, ANGLE, FORCE, LENGTH, PRESSURE, SPEED
 from moyai.records.reading.quality import QualityOptions
 from moyai.records.reading.sensors import Sensor
 from moyai.records.reading.sources import LoggerSource
@@ -22,12 +23,12 @@ ChannelKind = Literal[
     "displacement_y", "acceleration_z", "speed", "direction", "tension", "force", "motion", "rotation", "other",
 ]  # fmt: skip
 
-UNITS_OF_KINDS = {
-    "elevation": "m", "pressure": "Pa", "velocity_x": "m/s", "velocity_y": "m/s", "velocity_z": "m/s",
-    "displacement_x": "m", "displacement_y": "m", "acceleration_z": "m/s2", "speed": "m/s", "direction": "rad",
-    "tension": "N", "force": "N", "motion": "m", "rotation": "rad",
+QUANTITIES_OF_KINDS = {
+    "elevation": LENGTH, "pressure": PRESSURE, "velocity_x": SPEED, "velocity_y": SPEED, "velocity_z": SPEED,
+    "displacement_x": LENGTH, "displacement_y": LENGTH, "acceleration_z": ACCELERATION, "speed": SPEED,
+    "direction": ANGLE, "tension": FORCE, "force": FORCE, "motion": LENGTH, "rotation": ANGLE,
 }  # fmt: skip
-"""SI unit that a channel of each kind must have; kinds that are absent may have any."""
+"""What a channel of each kind is by its unit; kinds that are absent may have any."""
 
 
 @checks_words

@@ -11,9 +11,13 @@ from numpy.typing import ArrayLike, NDArray
 from moyai.core.arrays import Array, ComplexArray
 from moyai.core.errors import InputError
 from moyai.core.validity import Notice
+from moyai.core.wording import counted
 from moyai.floating.decay import Decay, fit_decay
 from moyai.series.detrend import slow_part
 from moyai.series.spectra import CrossSpectra, WelchOptions, cross_spectra
+
+#: Samples of a period below which crests and the period itself are doubtful
+_FEW_SAMPLES = 8.0
 
 
 @dataclass(frozen=True, eq=False)
@@ -75,9 +79,10 @@ def fit_decay_record(
     t, v = np.asarray(time, dtype=float), np.asarray(values, dtype=float)
     if t.shape != v.shape or t.size < 8:
         raise InputError(f"{v.size} samples for {t.size} instants", parameter="values", allowed="8 or more, equal")
+    if not np.isfinite(v).any():
+        raise InputError("the record holds no value", parameter="values", remedy="check the column")
     level = float(np.nanmedian(v[-max(t.size // 5, 3) :])) if equilibrium is None else float(equilibrium)
-    first = t[int(np.nanargmax(np.abs(v - level)))] if start is None else start
-    chosen = (t >= first) & (t <= (t[-1] if end is None else end))
+    chosen = _used_part(t, v - level, start, end)
     t, v = t[chosen], v[chosen]
     if not np.isfinite(v).all():
         raise InputError(
@@ -105,6 +110,10 @@ def fit_decay_record(
         for _ in range(3):  # another rest may bring further swings in
             level += _rest_shift(t, v, level, found, quadratic)
             found = fit_decay(t, v, mean=level, smallest=smallest, quadratic=quadratic)
+    samples = found.period / float(np.median(np.diff(t)))
+    if samples < _FEW_SAMPLES:
+        message = f"a period holds {samples:.3g} samples: a shorter one would look the same, and crests are missed"
+        notices.append(Notice("decay-sampling", message, samples, _FEW_SAMPLES, remedy="sample faster"))
     if found.damping_ratio < 0.0:
         message = (
             f"the linear damping ratio comes out as {found.damping_ratio:.3g}: the extremes do not decay like this"
@@ -117,6 +126,22 @@ def fit_decay_record(
         notices.append(Notice("few-cycles", message, float(found.ratios.size), 6.0))
     errors = _jackknife(found, quadratic)
     return DecayFit(found, level, float(t[0]), float(found.extreme_times[-1]), *errors, tuple(notices))
+
+
+def _used_part(t: Array, departure: Array, start: float | None, end: float | None) -> NDArray[np.bool_]:
+    """Return which samples are used: from the largest departure from rest on where no start is given."""
+    first, last = float(t[0]) if start is None else start, float(t[-1]) if end is None else end
+    chosen = (t >= first) & (t <= last)
+    if start is None and np.isfinite(departure[chosen]).any():
+        first = float(t[chosen][int(np.nanargmax(np.abs(departure[chosen])))])
+        chosen &= t >= first
+    if np.count_nonzero(chosen) < 8:
+        raise InputError(
+            f"the part from {first:.5g} to {last:.5g} s holds {counted(int(np.count_nonzero(chosen)), 'sample')}",
+            parameter="end" if start is None else "start",
+            allowed=f"8 or more, within {t[0]:.5g} to {t[-1]:.5g} s",
+        )
+    return chosen
 
 
 def _rest_shift(t: Array, v: Array, level: float, decay: Decay, quadratic: bool) -> float:
@@ -150,9 +175,9 @@ def _without_ripple(t: Array, v: Array, level: float) -> tuple[Array, float]:
     large = np.abs(above[1:-1]) > band
     slope = np.diff(v)
     turns = int(np.count_nonzero((slope[1:] * slope[:-1] <= 0.0) & large))  # steps of a coarse resolution count too
-    if swings < 2 or turns <= swings + 2:
-        return v, 0.0
     crossings = np.flatnonzero(above[1:] * above[:-1] < 0.0)
+    if swings < 2 or turns <= swings + 2 or crossings.size < 2:
+        return v, 0.0
     length = 2.0 * float(t[crossings[-1]] - t[crossings[0]]) / max(swings - 1, 1) / 8.0
     step = float(np.median(np.diff(t)))
     if length < 5.0 * step:

@@ -10,6 +10,7 @@ import numpy as np
 from moyai.case.measured import read_points
 from moyai.case.reader import read_block
 from moyai.case.yaml_reader import CaseDocument, read_yaml
+from moyai.core import quantities
 from moyai.core.errors import CaseError, InputError
 from moyai.records.forces.case.schema import ForceRecordFile, WaveGauge
 from moyai.records.forces.identification import METHODS, ForceRecord, Setup
@@ -90,15 +91,21 @@ def record_of(path: Path, model: ForceRecordFile) -> ForceRecord:
                 path=f"columns.{key}",
                 allowed="equal",
             )
-    wanted = {names.time: "time"}
+    wanted, kinds = {names.time: "time"}, {names.time: quantities.TIME}
+    of = {
+        "force": quantities.FORCE_PER_LENGTH if model.length is None else quantities.FORCE,
+        "velocity": quantities.SPEED,
+        "acceleration": quantities.ACCELERATION,
+        "elevation": quantities.LENGTH,
+    }
     entries = [(column, f"{key}_{number}") for key, columns in groups.items() for number, column in enumerate(columns)]
     if gauge is not None:
         entries.append((gauge.elevation, "elevation"))
     for column, target in entries:
         if column in wanted:
             raise InputError(f"the column '{column}' is named twice", path="columns")
-        wanted[column] = target
-    table = read_points(path, wanted, "record")
+        wanted[column], kinds[column] = target, of[target.split("_")[0]]
+    table = read_points(path, wanted, "record", kinds)
 
     def gathered(key: str) -> np.ndarray:
         return np.column_stack([table[f"{key}_{number}"] for number in range(len(names.force))])

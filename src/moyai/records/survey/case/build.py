@@ -13,13 +13,14 @@ from moyai.case.reader import read_block
 from moyai.case.yaml_reader import CaseDocument, KeyPath, read_yaml
 from moyai.core.arrays import Array
 from moyai.core.errors import CaseError, Fault, InputError
+from moyai.core.quantities import QuantityKind, check_unit
 from moyai.core.units import parse_unit
 from moyai.records.reading.quality import QualityOptions
 from moyai.records.reading.sensors import QUANTITIES, Sensor
 from moyai.records.reading.sources import FORMS, ClockCorrection, ColumnSource, LoggerSource, TimeSource, is_form
 from moyai.records.survey.case.schema import ChannelEntry, LoggerKeys, QualityKeys, RecordsFile
 from moyai.records.survey.model import (
-    UNITS_OF_KINDS,
+    QUANTITIES_OF_KINDS,
     ChannelUse,
     CurrentUse,
     Directions,
@@ -248,11 +249,14 @@ class _SurveyBuilder:
         return LoggerSource(
             entry.name,
             tuple(files),
-            tuple(ColumnSource(c.column, c.name, c.unit, c.scale, c.offset, c.missing) for c in entry.channels),
+            tuple(
+                ColumnSource(c.column, c.name, c.unit, c.scale, c.offset, c.missing, _quantities(c))
+                for c in entry.channels
+            ),
             TimeSource(
                 columns,
                 time.format or "number",
-                time.unit,
+                time.unit or "",
                 start,
                 math.nan if time.rate is None else time.rate,
                 time.utc_offset,
@@ -279,16 +283,12 @@ class _SurveyBuilder:
         return (found if found.tzinfo else found.replace(tzinfo=UTC)).timestamp()
 
     def _channel(self, entry: ChannelEntry, path: KeyPath) -> ChannelUse:
-        wanted = UNITS_OF_KINDS.get(entry.kind)
-        if entry.unit and wanted is not None:
-            found = parse_unit(entry.unit) if entry.unit != "1" else None
-            fits = found is not None and found.dimension == parse_unit(wanted).dimension
-            if not fits:
-                self.fault(
-                    (*path, "unit"),
-                    f"'{entry.unit}' is no unit of a channel of kind '{entry.kind}'",
-                    allowed=f"units of {wanted}",
-                )
+        if entry.unit:
+            try:
+                unit = parse_unit(entry.unit) if entry.unit != "1" else parse_unit("%") ** 0
+                check_unit(unit, _quantities(entry), f"channel '{entry.name}' of kind '{entry.kind}'", "")
+            except InputError as error:
+                self.fault((*path, "unit"), error.fault.message, allowed=error.fault.allowed, remedy=error.fault.remedy)
         lowest = -math.inf if entry.lowest is None else entry.lowest
         highest = math.inf if entry.highest is None else entry.highest
         if lowest >= highest:
@@ -376,6 +376,12 @@ _STEADY_KINDS = (
     "motion",
     "rotation",
 )
+
+
+def _quantities(entry: ChannelEntry) -> tuple[QuantityKind, ...]:
+    """Return what a channel may be by its unit, empty for anything."""
+    kind = QUANTITIES_OF_KINDS.get(entry.kind)
+    return () if kind is None else (kind,)
 
 
 def _drift_share(given: float | None, kind: str) -> float:

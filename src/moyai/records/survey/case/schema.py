@@ -67,8 +67,10 @@ class TimeColumn(Block):
         min_length=2,
         description="'iso', or a pattern such as '%Y/%m/%d %H:%M:%S.%f'; absent: the time is a number.",
     )
-    unit: Literal["s", "ms", "us", "ns", "min", "h", "d", "datenum", "excel"] = Field(
-        default="s", description="Unit of a number; 'datenum' are MATLAB's days, 'excel' the days of a spreadsheet."
+    unit: Literal["s", "ms", "us", "ns", "min", "h", "d", "datenum", "excel"] | None = Field(
+        default=None,
+        description="Unit of a number; 'datenum' are MATLAB's days, 'excel' the days of a spreadsheet; absent: the one "
+        "the heading states, else seconds.",
     )
     start: str | None = Field(
         default=None, description="Date and time of zero, UTC unless it names its offset: 1999-09-23T00:00:00+09:00."
