@@ -31,6 +31,11 @@ def seeds(scatter: Array, bound: Array | None = None, more: str = MORE) -> Band 
     )  # fmt: skip
 
 
+#: Reduced variate of Gumbel's law at the low end, the mean and the high end of the largest of storms alike.
+OF_STORMS = (-math.log(-math.log(0.05)), float(np.euler_gamma), -math.log(-math.log(0.95)))
+_STORMS = "90 of 100 such storms, peaks by Rayleigh; judged at the mean of their largest"
+
+
 def storms(value: float, mean: float, factor: float) -> Band | None:
     """Return the band of a most probable largest value over storms alike [eq:extremes-of-storms].
 
@@ -48,12 +53,24 @@ def storms(value: float, mean: float, factor: float) -> Band | None:
     """
     if not factor > 1.0:
         return None
-    low, expected, high = (
-        mean + (value - mean) * (1.0 + reduced / factor**2)
-        for reduced in (-math.log(-math.log(0.05)), np.euler_gamma, -math.log(-math.log(0.95)))
-    )
-    of = "90 of 100 such storms, peaks by Rayleigh; judged at the mean of their largest"
-    return Band(low, high, of, decides=False, judged=(value, expected))
+    low, expected, high = (mean + (value - mean) * (1.0 + reduced / factor**2) for reduced in OF_STORMS)
+    return Band(low, high, _STORMS, decides=False, judged=(value, expected))
+
+
+def storm_ends(value: float, ends: Array) -> Band | None:
+    """Return the same of a number that was found anew at these ends, as an uplift is that begins at a corner.
+
+    Parameters
+    ----------
+    value : float
+        Most probable largest value.
+    ends : ndarray (3,)
+        At the low end, the mean and the high end of :func:`storms`; ``None`` comes back where one is not known.
+    """
+    if ends.size != len(OF_STORMS) or not np.isfinite(ends).all():
+        return None
+    low, expected, high = (float(end) for end in ends)
+    return Band(low, high, _STORMS, decides=False, judged=(value, expected))
 
 
 #: What is said of a number of one realisation.

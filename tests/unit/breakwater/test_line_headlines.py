@@ -202,3 +202,21 @@ def test_a_bound_behind_a_larger_known_number_leaves_its_limit_open():
             (shown,) = (item for item in numbers if item.name == "line_tension" and item.shown)
             assert "more is possible at" in shown.detail and "swell" in shown.detail
             assert "more is possible" not in headline(page(known), "line_tension").detail
+
+
+def test_an_anchor_that_is_lifted_where_its_line_is_judged_does_not_hold():
+    """Most probably it lies still; at the mean of the largest of storms alike it is lifted."""
+    alone, nothing = replace(GOVERNS, vertical=0.0, factor=3.7), np.zeros(0)
+    alone = replace(alone, scatter=nothing, vertical_scatter=nothing, horizontal_scatter=nothing, bound=nothing)
+    ends = np.array([380e3, 410e3, 450e3])
+    lifted = replace(alone, vertical_of_storms=np.array([-1.0, 40.0, 300.0]), horizontal_of_storms=ends)
+    lies = replace(lifted, vertical_of_storms=np.array([-3.0, -2.0, -1.0]))
+    uplift = headline(anchor_headlines({}, [], [lifted]), "anchor_vertical_tension")
+    assert uplift.value == 0.0 and uplift.band.judged == (0.0, 40.0) and uplift.text == ""
+    assert judge(page(lifted), (UPLIFT,), computed=True).outcome == "does not hold"
+    assert headline(anchor_headlines({}, [], [lies]), "anchor_vertical_tension").text == "none"
+    assert judge(page(lies), (UPLIFT,), computed=True).outcome == "holds"
+    needs = [headline(anchor_headlines({}, [], [peak]), "anchor_capacity_required") for peak in (lies, lifted)]
+    assert "line left on the bed" in needs[1].detail and needs[0].value < needs[1].value
+    pull = headline(anchor_headlines({}, [], [lies]), "anchor_horizontal_tension")
+    assert pull.band.judged == (390e3, 410e3) and pull.band.high == 450e3

@@ -52,3 +52,24 @@ def test_a_line_is_solved_where_its_largest_linear_tension_takes_the_unit(pontoo
         other = list(unit.mooring.planar.states(-place).values())[line]
         assert found.tension[line] > 1.05 * float(other.tension_fairlead[0])
     assert found.offset == pytest.approx(largest * sway, rel=1e-9)
+
+
+def test_the_anchor_is_loaded_as_the_line_at_the_mean_of_storms_is(pontoon_problem):
+    """The largest of storms alike is, on average, the most probable one of a storm so much longer."""
+    unit = assemble(pontoon_problem, "SWL", 0.0)
+    omega = np.linspace(4.0, 8.0, 41)
+    directional = np.exp(-(((omega - 6.0) / 0.5) ** 2))[:, None] * 2e-4
+    motion = np.zeros((omega.size, 1, 3), dtype=complex)
+    motion[..., 0] = 0.8 * np.exp(0.4j)
+    tension = np.stack([50.0 * motion[..., 0], -50.0 * motion[..., 0]], axis=-1)
+
+    def extremes(largest):
+        factors = np.full(3, largest), np.full(2, largest)
+        return combined_extremes(unit, np.zeros(3), motion, tension, directional, omega, None, factors, 1e4)
+
+    found, longer = extremes(3.5), extremes(3.5 + np.euler_gamma / 3.5)
+    assert found.vertical_of_storms[:, 1] == pytest.approx(longer.anchor_vertical, rel=1e-9)
+    assert found.horizontal_of_storms[:, 1] == pytest.approx(longer.anchor_horizontal, rel=1e-9)
+    assert (np.diff(found.horizontal_of_storms, axis=1) > 0.0).all()
+    # of a factor that is not above one there are no storms
+    assert np.isnan(extremes(0.9).vertical_of_storms).all()

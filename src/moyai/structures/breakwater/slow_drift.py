@@ -12,6 +12,7 @@ from moyai.core.arrays import Array, ComplexArray
 from moyai.floating.damping import LinearDamping
 from moyai.floating.irregular import integration_weights
 from moyai.floating.modes import added_mass_function, damping_function, natural_modes
+from moyai.series.realisations import OF_STORMS
 from moyai.structures.breakwater.assembly import FloatingUnit
 from moyai.structures.breakwater.frequency.about_rest import natural_added_mass
 from moyai.structures.breakwater.frequency.model import FrequencyModel
@@ -159,6 +160,10 @@ class CombinedExtremes:
     grounded: Array
     #: Largest sway from rest [m].
     offset: float
+    #: Uplift and horizontal tension at the anchor [N] where the line pulls as it does at the low end, the mean and the
+    #: high end of the largest of storms alike; shape (lines, 3).
+    vertical_of_storms: Array
+    horizontal_of_storms: Array
 
 
 def combined_extremes(
@@ -208,6 +213,7 @@ def combined_extremes(
     )
     count = len(unit.lines)
     out = {name: np.full(count, math.nan) for name in ("tension", "vertical", "horizontal", "grounded")}
+    vertical, horizontal = np.full((count, len(OF_STORMS)), math.nan), np.full((count, len(OF_STORMS)), math.nan)
     if count:
         slope = _slopes(unit, offset)
         pulls = np.nan_to_num(tension)
@@ -226,7 +232,15 @@ def combined_extremes(
             out["vertical"][line] = state.vertical_tension_anchor[at]
             out["horizontal"][line] = state.horizontal_tension[at]
             out["grounded"][line] = state.grounded_length[at]
-    return CombinedExtremes(out["tension"], out["vertical"], out["horizontal"], out["grounded"], abs(mean) + excursion)
+            most = float(factors[1][line])
+            if most > 1.0:
+                way = positions[at] - offset
+                reach = np.array([1.0 + reduced / most**2 for reduced in OF_STORMS])
+                storm = list(unit.mooring.planar.states(offset + reach[:, None] * way).values())[line]
+                vertical[line], horizontal[line] = storm.vertical_tension_anchor, storm.horizontal_tension
+    return CombinedExtremes(
+        out["tension"], out["vertical"], out["horizontal"], out["grounded"], abs(mean) + excursion, vertical, horizontal
+    )
 
 
 def _slopes(unit: FloatingUnit, offset: Array) -> Array:

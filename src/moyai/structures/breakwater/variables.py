@@ -114,6 +114,14 @@ VARIABLES: dict[str, tuple[str, str]] = {
         "N",
         "largest horizontal tension at the anchor in each realisation",
     ),
+    "anchor_vertical_tension_of_storms": (
+        "N",
+        "uplift at the anchor at the low end, the mean and the high end of the largest of storms alike",
+    ),
+    "anchor_horizontal_tension_of_storms": (
+        "N",
+        "horizontal tension at the anchor at the low end, the mean and the high end of the largest of storms alike",
+    ),
     "largest_offset_by_dof_of_realisation": ("m", "largest way from rest in each realisation (roll: rad)"),
     "maximum_motion": ("m", "largest excursion from the mean (roll: rad)"),
     "significant_tension": ("N", "significant double amplitude of the tension"),
@@ -233,7 +241,8 @@ TOGETHER = {
         (
             "wave_spectrum response_spectrum significant_height significant_motion significant_motion_low "
             "significant_motion_high most_probable_maximum_motion mean_zero_crossing_period significant_tension "
-            "most_probable_maximum_tension anchor_horizontal_tension_maximum least_grounded_length largest_offset "
+            "most_probable_maximum_tension anchor_horizontal_tension_maximum anchor_vertical_tension_of_storms "
+            "anchor_horizontal_tension_of_storms least_grounded_length largest_offset "
             "overtopping_share significant_relative_elevation"
         ),
         "transmitted_significant_height transmitted_spectrum",

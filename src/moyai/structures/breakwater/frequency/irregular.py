@@ -111,6 +111,8 @@ def irregular_sea(
         "line_tension_maximum": ("line", extremes.tension),
         "anchor_vertical_tension_maximum": ("line", extremes.anchor_vertical),
         "anchor_horizontal_tension_maximum": ("line", extremes.anchor_horizontal),
+        "anchor_vertical_tension_of_storms": (("line", "storm_end"), extremes.vertical_of_storms),
+        "anchor_horizontal_tension_of_storms": (("line", "storm_end"), extremes.horizontal_of_storms),
         "least_grounded_length": ("line", extremes.grounded),
         "largest_offset": ((), extremes.offset),
         "maximum_utilisation": ("line", np.where(np.isfinite(load), extremes.tension / load, np.nan)),

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Mapping
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -14,7 +14,7 @@ from moyai.core.headline import Band, Bound, Headline, all_judged, saying_what_i
 from moyai.core.wording import kilonewton
 from moyai.design.anchor_needs import anchor_need, judged_end, sinker_weight
 from moyai.series.intervals import student_quantile
-from moyai.series.realisations import ALONE, alone, seeds, storms
+from moyai.series.realisations import ALONE, alone, seeds, storm_ends, storms
 from moyai.structures.breakwater.responses import SNAP_RATIO
 
 if TYPE_CHECKING:
@@ -65,12 +65,32 @@ class LinePeak:
     without_drift: bool = False
     #: Most probable largest over standard deviation of a tension of the frequency domain; NaN in time.
     factor: float = math.nan
+    #: Uplift and horizontal pull at the ends of storms alike, of the frequency domain; empty in time.
+    vertical_of_storms: Array = field(default_factory=lambda: np.zeros(0))
+    horizontal_of_storms: Array = field(default_factory=lambda: np.zeros(0))
     #: Whether it is a line of segments, which has a strength; a spring has none.
     chain: bool = True
 
     def band(self, value: float, scatter: Array, bound: Array | None = None, mean: float = 0.0) -> Band | None:
         """Return the band of a number of this line: of realisations, in the frequency domain of storms alike."""
         return seeds(scatter, bound) if scatter.size else storms(value, mean, self.factor)
+
+    @property
+    def pull_band(self) -> Band | None:
+        """The band of the horizontal pull on the anchor."""
+        return seeds(self.horizontal_scatter) or storm_ends(self.horizontal, self.horizontal_of_storms)
+
+    @property
+    def uplift_band(self) -> Band | None:
+        """The band of the uplift, which may begin at the tension at which the line is judged."""
+        found = seeds(np.maximum(self.vertical_scatter, 0.0))
+        found = found or storm_ends(max(self.vertical, 0.0), np.maximum(self.vertical_of_storms, 0.0))
+        return found if found is not None and found.high > 0.0 else None
+
+    @property
+    def judged_uplift(self) -> float:
+        """Uplift that an anchor is bought for [N]."""
+        return judged_end(self.vertical, self.uplift_band)
 
     @property
     def proves(self) -> Bound:
@@ -168,6 +188,10 @@ def _line_peak(
         name = f"{name}_of_realisation"
         return np.asarray(data.variables[name].values[:, number], dtype=float) if name in data else np.zeros(0)
 
+    def ends_of(side: str) -> Array:
+        name = f"anchor_{side}_tension_of_storms"
+        return np.asarray(data.variables[name].values[number], dtype=float) if name in data else np.full(3, np.nan)
+
     scatter = scatter_of("line_tension_maximum")
     model = (FIRST_ORDER if regular else FREQUENCY) if domain == "frequency" else (IN_MOTION if moving else AT_REST)
     mean = of("line_tension_mean")
@@ -184,7 +208,7 @@ def _line_peak(
         model, known, scatter, scatter_of("anchor_vertical_tension_maximum"),
         scatter_of("anchor_horizontal_tension_maximum"),
         scatter_of("line_tension_bound") if moving else scatter, float(data.attrs.get("duration", math.nan)),
-        drift_left_out(data), factor, chain,
+        drift_left_out(data), factor, ends_of("vertical"), ends_of("horizontal"), chain,
     )  # fmt: skip
 
 
@@ -313,7 +337,7 @@ def anchor_headlines(groups: Mapping[str, xr.Dataset], levels: list[str], peaks:
         return []
     known = [peak for peak in pulled if peak.known]
     # where no anchor is lifted, the line that leaves least on the bed comes nearest to it
-    lifted = max(pulled, key=lambda peak: (max(peak.vertical, 0.0), -peak.grounded))
+    lifted = max(pulled, key=lambda peak: (max(peak.vertical, 0.0), peak.judged_uplift, -peak.grounded))
     hardest = max(pulled, key=lambda peak: peak.horizontal + max(peak.vertical, 0.0))
     pulls = saying_what_is_open(all_judged(_pull(peak) for peak in known))
     lifts = [_uplift(peak) for peak in known if peak is not lifted]
@@ -333,7 +357,7 @@ def anchor_headlines(groups: Mapping[str, xr.Dataset], levels: list[str], peaks:
     weight, heaviest = max(((_sinker(peak), peak) for peak in known), key=lambda pair: pair[0])
     needed = all_judged(_capacity(peak, weight, heaviest, len(known) < len(pulled)) for peak in known)
     capacities = saying_what_is_open(needed)
-    none = lifted.vertical <= 0.0
+    none = lifted.judged_uplift <= 0.0
     least = min(peak.grounded for peak in pulled)
     kept = f"{least:.3g} m of line stays on the bed" if least > 0.0 else "the line leaves the bed"
     said = "; ".join(part for part in (kept if none else "", _bare_lines(groups, levels)) if part)
@@ -349,15 +373,15 @@ def anchor_headlines(groups: Mapping[str, xr.Dataset], levels: list[str], peaks:
 def _pull(peak: LinePeak) -> Headline:
     return Headline(
         "anchor_horizontal_tension", "Horizontal pull on an anchor", peak.horizontal, "N", peak.where, peak.model,
-        band=peak.band(peak.horizontal, peak.horizontal_scatter), bound=peak.proves,
+        band=peak.pull_band, bound=peak.proves,
     )  # fmt: skip
 
 
 def _uplift(peak: LinePeak) -> Headline:
-    none = peak.vertical <= 0.0
+    none = peak.judged_uplift <= 0.0
     return Headline(
         "anchor_vertical_tension", "Uplift at an anchor", max(peak.vertical, 0.0), "N", peak.where, peak.model,
-        band=None if none else peak.band(peak.vertical, np.maximum(peak.vertical_scatter, 0.0)),
+        band=None if none else peak.uplift_band,
         text="none" if none else "", bound=peak.proves,
     )  # fmt: skip
 
@@ -380,21 +404,19 @@ def _unknown_anchors(pulled: list[LinePeak], shown: LinePeak | None) -> list[Hea
 
 def _capacity(peak: LinePeak, weight: float, heaviest: LinePeak, more: bool) -> Headline:
     """Return the holding capacity that the anchor of a line needs; ``more`` where another one is not known."""
-    need = anchor_need(peak.vertical, peak.grounded, weight, "" if heaviest.line == peak.line else heaviest.line)
+    need = anchor_need(peak.judged_uplift, peak.grounded, weight, "" if heaviest.line == peak.line else heaviest.line)
     value = need.factor * peak.horizontal
     return Headline(
         "anchor_capacity_required", "Horizontal holding capacity that an anchor needs", value, "N",
         f"{peak.where}, {need.factor:g} times its pull", peak.model,
-        band=peak.band(value, need.factor * peak.horizontal_scatter), bound="at least" if more else peak.proves,
+        band=None if peak.pull_band is None else peak.pull_band.scaled(need.factor),
+        bound="at least" if more else peak.proves,
         detail=need.words,
     )  # fmt: skip
 
 
 def _sinker(peak: LinePeak) -> float:
-    return sinker_weight(
-        judged_end(peak.horizontal, peak.band(peak.horizontal, peak.horizontal_scatter)),
-        judged_end(peak.vertical, peak.band(peak.vertical, np.maximum(peak.vertical_scatter, 0.0))),
-    )
+    return sinker_weight(judged_end(peak.horizontal, peak.pull_band), peak.judged_uplift)
 
 
 def _bare_lines(groups: Mapping[str, xr.Dataset], levels: list[str]) -> str:
