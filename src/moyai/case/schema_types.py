@@ -38,6 +38,10 @@ def refuse(message: str, *, allowed: str = "", remedy: str = "") -> PydanticCust
     return PydanticCustomError("moyai", "{message}", {"message": message, "allowed": allowed, "remedy": remedy})
 
 
+#: Between these a length [m] is what rounding leaves of zero, as of a place that was turned.
+_ROUNDED = (1e-20, 1e-9)
+
+
 @dataclass(frozen=True)
 class QuantityOf:
     """Annotation of a ``float`` field that takes a number or a text with a unit."""
@@ -98,6 +102,12 @@ class QuantityOf:
                 fault.message, allowed=fault.allowed or (f"also {words}" if words else ""), remedy=fault.remedy
             ) from None
         bounds = kind_bounds().get(self.kind.name)
+        if (
+            self.kind is quantities.LENGTH
+            and self.above < 0.0 >= self.least
+            and _ROUNDED[0] < abs(number) < _ROUNDED[1]
+        ):
+            number = 0.0
         if bounds is not None and number != 0.0 and not bounds[0] <= abs(number) <= bounds[1]:
             if not math.isfinite(number):
                 return number

@@ -479,3 +479,18 @@ def test_a_net_in_still_water_bears_what_hangs_on_its_width():
 )
 def test_the_coarser_mesh_has_a_knot_for_each_sinker(around: int, sinkers: int, coarse: int) -> None:
     assert coarser(CageMesh(around, 6, 3, 0.5), sinkers).around == coarse
+
+
+@pytest.mark.parametrize(("around", "bridles"), [(8, 1), (8, 2), (16, 2), (16, 3), (24, 2), (32, 4)])
+def test_bridles_hold_the_images_of_the_same_knots_in_a_mirror(around: int, bridles: int) -> None:
+    """On a mesh so coarse that two of a corner want one knot, too; each of a corner has one of its own."""
+    model = moored()
+    mooring = replace(model.mooring, bridles_per_corner=bridles)
+    built = build_cage(replace(model, mooring=mooring, mesh=replace(model.mesh, around=around)))
+    strands = built.network.strands
+    ends = [int(strands[part.strand].nodes[-1]) for part in built.lines if part.kind == "bridle"]
+    assert [len(set(ends[first : first + bridles])) for first in range(0, len(ends), bridles)] == [bridles] * 4
+    held = built.network.nodes.position[ends, :2]
+    for side in ((-1.0, 1.0), (1.0, -1.0)):
+        image = held * side
+        assert np.abs(image[:, None] - held[None]).max(axis=2).min(axis=1).max() < 1e-9

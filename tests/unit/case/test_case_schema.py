@@ -5,6 +5,7 @@ import json
 
 import pytest
 from case_files import changed, faults
+from pydantic import TypeAdapter, ValidationError
 
 from moyai.case.schema import json_schema, root_schema
 from moyai.case.templates import template
@@ -162,3 +163,14 @@ def test_an_example_lies_in_the_range_of_its_key() -> None:
     assert QuantityOf(quantities.NUMBER, least=1.0, most=20.0).example == ""
     assert QuantityOf(quantities.NUMBER, above=0.0).example
     assert QuantityOf(quantities.LENGTH, above=0.0).example
+
+
+def test_what_rounding_leaves_of_zero_is_zero():
+    """A place that a script has turned; a length that small by itself is none."""
+    from moyai.case.schema_types import Length, PositiveLength
+
+    assert TypeAdapter(Length).validate_python(6.1e-16) == 0.0 and TypeAdapter(Length).validate_python(0.01) == 0.01
+    with pytest.raises(ValidationError):
+        TypeAdapter(Length).validate_python(1e-150)
+    with pytest.raises(ValidationError):
+        TypeAdapter(PositiveLength).validate_python(6.1e-16)

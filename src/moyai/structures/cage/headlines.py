@@ -126,7 +126,11 @@ def _with_mesh(item: Headline, factors: Factors) -> Headline:
     band = item.band or Band(item.value, item.value, "")
     words = f"mesh ±{100.0 * (more - 1.0):.2g} %, the change of a coarser one"
     words = "; ".join(filter(None, (band.of, words)))
-    item = replace(item, band=replace(band, low=band.low * less, high=band.high * more, of=words))
+    high = band.high * more
+    if item.name == "volume_left":
+        # cloth does not stretch beyond what was built
+        high = max(min(high, 1.0), item.value)
+    item = replace(item, band=replace(band, low=band.low * less, high=high, of=words))
     if item.name != "net_tension" or more <= 1.0 + _GROWTH:
         return item
     # what a weight or a rope brings in at a knot goes over the width of the mesh there: a finer one has no limit

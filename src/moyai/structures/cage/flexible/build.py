@@ -261,24 +261,27 @@ def _rope(
 
 
 def bridle_ends(model: FlexibleCage, corner: tuple[float, float], cage: CageParts) -> list[int]:
-    """Return the knots of a collar that the bridles of one corner of its bay hold."""
+    """Return the knots of a collar that the bridles of one corner of its bay hold.
+
+    Each takes the nearest free knot on its own side of the way to the corner, so that a cage and its image in a mirror
+    hold the images of the same knots on any mesh.
+    """
     mooring = model.mooring
     assert isinstance(mooring, GridMooring)
-    count = cage.wall.shape[1]
-    flat = _outline(model.design, count, 0.0)
+    flat = _outline(model.design, cage.wall.shape[1], 0.0)
     toward = math.atan2(corner[1] - cage.centre[1], corner[0] - cage.centre[0])
-    spread = math.radians(20.0)
-    offsets = [0.0] if mooring.bridles_per_corner == 1 else np.linspace(-spread, spread, mooring.bridles_per_corner)
-    angles = np.arctan2(flat[:, 1], flat[:, 0])
-    chosen: list[int] = []
-    for offset in offsets:
-        away = np.abs(np.angle(np.exp(1j * (angles - toward - float(offset)))))
-        ring = cage.collar[-1]
-        for candidate in np.argsort(away, kind="stable"):
-            if int(ring[candidate]) not in chosen:
-                chosen.append(int(ring[candidate]))
-                break
-    return chosen
+    count = mooring.bridles_per_corner
+    offsets = np.radians([0.0] if count == 1 else np.linspace(-20.0, 20.0, count))
+    # rounded: knots as near as each other are so on both sides
+    turned = np.angle(np.exp(1j * (np.arctan2(flat[:, 1], flat[:, 0]) - toward))).round(9)
+    chosen: dict[int, int] = {}
+    for number in np.argsort(np.abs(offsets).round(9), kind="stable"):
+        offset = float(offsets[number])
+        across = (turned * offset <= 0.0) & (abs(offset) > 1e-9)
+        away = np.where(across, math.inf, np.abs(turned - offset).round(9))
+        away[list(chosen.values())] = math.inf
+        chosen[int(number)] = int(np.lexsort((np.abs(turned), away))[0])
+    return [int(cage.collar[-1][chosen[number]]) for number in range(count)]
 
 
 def _grid(work: _Assembly, model: FlexibleCage, cages: list[CageParts]) -> tuple[list[LinePart], list[int], list[int]]:
