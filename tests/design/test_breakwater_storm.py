@@ -109,6 +109,9 @@ def test_the_first_example_holds():
     pull = float(time.anchor_horizontal_tension_maximum_of_realisation.max())
     given = line_type("studless_chain_R3", 0.068)
     weight = 9.81 * (given.mass_per_length - 1025.0 * given.volume_per_length)
+    # the chain goes slack for an instant: twice the bars have been tried, and change next to nothing
+    assert float(time.slack_time[0]) > 0.0 and abs(float(time.peak_change_twice_the_bars[0])) < 0.02
+    assert "twice the bars" in headline(result, "line_tension").band.of
     drop = 10.0 - float(statics.draught)
     assert np.sqrt(drop**2 + 2.0 * drop * pull / weight) < 95.0
 

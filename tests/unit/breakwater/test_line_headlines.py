@@ -220,3 +220,18 @@ def test_an_anchor_that_is_lifted_where_its_line_is_judged_does_not_hold():
     assert "line left on the bed" in needs[1].detail and needs[0].value < needs[1].value
     pull = headline(anchor_headlines({}, [], [lies]), "anchor_horizontal_tension")
     assert pull.band.judged == (390e3, 410e3) and pull.band.high == 450e3
+
+
+def test_lines_that_snap_have_the_change_of_shorter_bars_in_their_band():
+    plain, finer, coarser = (replace(GOVERNS, finer=change) for change in (np.nan, 0.1, -0.1))
+    bands = [headline(line_headlines([peak]), "line_tension").band for peak in (plain, finer, coarser)]
+    assert bands[1].high == pytest.approx(1.2 * bands[0].high) and bands[1].low == bands[0].low
+    assert bands[1].judged[1] == pytest.approx(1.2 * bands[0].judged[1])
+    assert bands[2].low == pytest.approx(0.8 * bands[0].low) and bands[2].judged[1] == bands[0].judged[1]
+    assert "twice the bars change it by +10 %" in bands[1].of
+    pull = headline(anchor_headlines({}, [], [finer]), "anchor_horizontal_tension").band
+    assert pull.high == pytest.approx(1.2 * 0.97 * 500e3)
+    # one that limits are kept by no longer
+    limit = Criterion("factor", "line_tension", 1.1 * bands[0].judged[1], "at most", "case", unit="N")
+    outcomes = [judge(line_headlines([peak]), (limit,), computed=True).outcome for peak in (plain, finer)]
+    assert outcomes == ["holds", "does not hold"]

@@ -16,6 +16,7 @@ from moyai.design.anchor_needs import anchor_need, judged_end, sinker_weight
 from moyai.series.intervals import student_quantile
 from moyai.series.realisations import ALONE, alone, seeds, storm_ends, storms
 from moyai.structures.breakwater.responses import SNAP_RATIO
+from moyai.structures.breakwater.time.lines import TWICE_THE_BARS
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -68,22 +69,35 @@ class LinePeak:
     #: Uplift and horizontal pull at the ends of storms alike, of the frequency domain; empty in time.
     vertical_of_storms: Array = field(default_factory=lambda: np.zeros(0))
     horizontal_of_storms: Array = field(default_factory=lambda: np.zeros(0))
+    #: Change of the tension with twice the bars, of lines in motion that go slack; NaN where there is none.
+    finer: float = math.nan
     #: Whether it is a line of segments, which has a strength; a spring has none.
     chain: bool = True
 
     def band(self, value: float, scatter: Array, bound: Array | None = None, mean: float = 0.0) -> Band | None:
         """Return the band of a number of this line: of realisations, in the frequency domain of storms alike."""
-        return seeds(scatter, bound) if scatter.size else storms(value, mean, self.factor)
+        return self._on_finer(seeds(scatter, bound), value) if scatter.size else storms(value, mean, self.factor)
+
+    def _on_finer(self, band: Band | None, value: float) -> Band | None:
+        """Return a band that reaches as far as shorter bars move the tension, either way it goes."""
+        if math.isnan(self.finer) or self.finer == 0.0:
+            return band
+        band = band or Band(value, value, "", decides=False, judged=(value, value))
+        words = f"twice the bars change it by {100.0 * self.finer:+.2g} %, and their change extrapolated"
+        # of bars that are halved again and again each changes half as much as the one before
+        less, more = 1.0 + 2.0 * min(self.finer, 0.0), 1.0 + 2.0 * max(self.finer, 0.0)
+        return replace(band.scaled(max(less, 0.0), more), of="; ".join(filter(None, (band.of, words))))
 
     @property
     def pull_band(self) -> Band | None:
         """The band of the horizontal pull on the anchor."""
-        return seeds(self.horizontal_scatter) or storm_ends(self.horizontal, self.horizontal_of_storms)
+        found = self._on_finer(seeds(self.horizontal_scatter), self.horizontal)
+        return found or storm_ends(self.horizontal, self.horizontal_of_storms)
 
     @property
     def uplift_band(self) -> Band | None:
         """The band of the uplift, which may begin at the tension at which the line is judged."""
-        found = seeds(np.maximum(self.vertical_scatter, 0.0))
+        found = self._on_finer(seeds(np.maximum(self.vertical_scatter, 0.0)), max(self.vertical, 0.0))
         found = found or storm_ends(max(self.vertical, 0.0), np.maximum(self.vertical_of_storms, 0.0))
         return found if found is not None and found.high > 0.0 else None
 
@@ -208,7 +222,7 @@ def _line_peak(
         model, known, scatter, scatter_of("anchor_vertical_tension_maximum"),
         scatter_of("anchor_horizontal_tension_maximum"),
         scatter_of("line_tension_bound") if moving else scatter, float(data.attrs.get("duration", math.nan)),
-        drift_left_out(data), factor, ends_of("vertical"), ends_of("horizontal"), chain,
+        drift_left_out(data), factor, ends_of("vertical"), ends_of("horizontal"), of(TWICE_THE_BARS), chain,
     )  # fmt: skip
 
 

@@ -30,13 +30,19 @@ from moyai.structures.breakwater.hydrodynamics import SECTOR
 from moyai.structures.breakwater.lines.events import EventSettings, movable, out_of_range, with_lines_in_motion
 from moyai.structures.breakwater.lines.motion import has_dynamic_lines
 from moyai.structures.breakwater.lines.network import resolved
-from moyai.structures.breakwater.lines.search import MOST_EVENTS, EventsInMotion, Realisation, events_in_motion
+from moyai.structures.breakwater.lines.search import (
+    MOST_EVENTS,
+    EventsInMotion,
+    Realisation,
+    change_on_finer_lines,
+    events_in_motion,
+)
 from moyai.structures.breakwater.memory_model import UnitMemory
 from moyai.structures.breakwater.model import DEFAULT_REALISATIONS, IrregularSea
 from moyai.structures.breakwater.responses import anchor_loads, snap_notices
 from moyai.structures.breakwater.settings import MODES, TimeSettings
 from moyai.structures.breakwater.slow_drift import LEAST_CYCLES
-from moyai.structures.breakwater.time.lines import STATISTICS, lines_at_rest, motion_summary
+from moyai.structures.breakwater.time.lines import STATISTICS, TWICE_THE_BARS, lines_at_rest, motion_summary
 from moyai.structures.breakwater.time.model import SeaOfRun, TimeResult, TimeRun, linear_damping, run_seeds
 from moyai.structures.breakwater.variables import labelled
 from moyai.structures.breakwater.viscous_damping import in_moving_water
@@ -248,7 +254,7 @@ def _lines_in_motion(
     settings = shared.settings.changed(lines=lines)
     given = EventSettings(shared.model, shared.cummins, shared.expected, settings, shared.peak_period, period)
     shown: list[TimeRun] = []
-    best, counts, still_open = -math.inf, [], 0
+    best, counts, still_open, refined = -math.inf, [], 0, list[Notice]()
     offsets: list[Array] = []
     for line in sorted(np.flatnonzero(passing), key=lambda number: -rank[number]):
         load = float(loads[line]) if math.isfinite(loads[line]) else 1.0
@@ -258,6 +264,14 @@ def _lines_in_motion(
             reported = f"{unit.name}, {shared.sea.name}: {error.fault.message}; lines stay at rest at every instant"
             return members, shown, moved, (Notice("lines-stay-at-rest", reported, remedy=error.fault.remedy),)
         moved[line] = True
+        try:
+            change = change_on_finer_lines(given, members, found, int(line), progress)
+        except ConvergenceError as error:
+            finer = f"{unit.name}, {shared.sea.name}: with twice the bars: {error.fault.message}; not in the band"
+            refined.append(Notice("lines-not-refined", finer, remedy=error.fault.remedy))
+            change = math.nan
+        for item in found:
+            item.numbers[TWICE_THE_BARS] = np.full(len(unit.lines), change)
         members = [_with_events(shared.model, one, item, int(line)) for one, item in zip(members, found, strict=True)]
         counts += [item.count for item in found]
         offsets += [item.offsets for item in found]
@@ -276,7 +290,7 @@ def _lines_in_motion(
         f"{unit.name}, {shared.sea.name}: {min(counts)} to {max(counts)} events of each realisation were run with line "
         f"{names} in motion, over {given.lead:.0f} s up to each, until the next could not pass the largest"
     )
-    notices = [Notice("lines-set-in-motion", reported, severity="information")]
+    notices = [Notice("lines-set-in-motion", reported, severity="information"), *refined]
     if still_open:
         reported = (
             f"{unit.name}, {shared.sea.name}: in {still_open} searches of {len(counts)} the limit of {MOST_EVENTS} "

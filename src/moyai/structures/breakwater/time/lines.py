@@ -22,6 +22,7 @@ SENSITIVITIES = {
     "half the step": "peak_change_half_the_step",
     "twice the internal damping": "peak_change_twice_the_damping",
 }
+TWICE_THE_BARS = SENSITIVITIES["twice the bars"]
 STATISTICS = ("slack_time", "longest_slack", "contact_count", "snap_count", "largest_snap", "shortest_rise_time")
 
 
