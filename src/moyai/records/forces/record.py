@@ -10,6 +10,7 @@ import numpy as np
 
 from moyai.core.arrays import Array
 from moyai.core.errors import InputError
+from moyai.core.options import checks_words
 from moyai.series.plateaus import find_plateaus
 
 #: Departure from an even time step that is forgiven, in steps
@@ -225,6 +226,7 @@ def _response(frequency: Array, cut: float) -> Array:
     return 1.0 / (1.0 + (frequency / cut) ** (2 * _ORDER))
 
 
+@checks_words
 def without_noise(values: Array, step: float, frequency: float, *, ends: Literal["odd", "even"] = "odd") -> Array:
     """Return columns (samples, ...) without what lies above a frequency [Hz], without shifting what lies below.
 
