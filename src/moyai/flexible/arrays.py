@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from dataclasses import dataclass
 
 import numpy as np
@@ -114,6 +115,10 @@ def _bar_rows(network: Network) -> Array:
     displaced = water.density * bars.of_type("volume_per_length") * half
     drag = 0.5 * water.density * bars.of_type("diameter") * half
     added = bars.of_type("added_mass_normal") * displaced
+    # without a diameter what displaces water is a circle of its volume [eq:flexible-immersion]: with no height all of
+    # its lift would come and go at the surface at once
+    circle = np.sqrt(bars.of_type("volume_per_length") / math.pi)
+    radius = np.where(bars.of_type("diameter") > 0.0, 0.5 * bars.of_type("diameter"), circle)
     return np.stack(
         [
             bars.length,
@@ -126,7 +131,7 @@ def _bar_rows(network: Network) -> Array:
             bars.of_type("added_mass_tangential") * displaced,
             water.gravity * displaced,
             bars.flow_factor,
-            np.maximum(0.5 * bars.of_type("diameter"), 1e-9 * bars.length),
+            np.maximum(radius, 1e-9 * bars.length),
             1.0 / (bars.of_type("mass_per_length") * half + added),
             displaced,
         ]

@@ -88,6 +88,7 @@ class ExplicitRun:
         *,
         safety: float | None,
         load_steps: int,
+        shorter: float = 1.0,
     ) -> None:
         self.network, self.flow, self.load_steps = network, flow, load_steps
         self.arrays, self.bed = kernel_arrays(network), kernel_bed(network)
@@ -121,6 +122,8 @@ class ExplicitRun:
         self.packed.node_rows(WU, 7)[:] = self.water
         self._call_march(0, _NOTHING, np.zeros_like(self.water), 0, 0.0, (0.0, 1, 1), self.near_surface(), math.inf)
         self.safety = self._usual_safety() if safety is None else safety
+        #: Factor on every step, for a look at what the step does.
+        self.shorter = shorter
         #: Largest part of the step that is stable for this network, of which use was made, by a step given by hand.
         self.overstep = 0.0
         if network.blocks is not None or network.sheets is not None or self._most_added() > MOST_ADDED:
@@ -270,7 +273,7 @@ class ExplicitRun:
         fastest, _, inverse = self._survey()
         self.stable = stable = self._bound(inverse)[0]
         largest = min(self.safety * stable, DRAG_SHARE / max(fastest, 1e-300)) if wanted is None else wanted
-        least = max(1, math.ceil(row_interval / largest * (1.0 - 1e-12)))
+        least = max(1, math.ceil(row_interval / (self.shorter * largest) * (1.0 - 1e-12)))
         if wanted is not None:
             # with the drag of the water, which a longer step would hold back, the bound may be a shorter one
             bound = min(stable, DRAG_SHARE / max(fastest, 1e-300))

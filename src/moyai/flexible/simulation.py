@@ -95,12 +95,14 @@ def check_start(network: Network, start: State) -> None:
             )
 
 
-def check_step(step: float | None, safety: float | None) -> None:
-    """Refuse a step, or a part of the stable one, out of range."""
+def check_step(step: float | None, safety: float | None, shorter: float = 1.0) -> None:
+    """Refuse a step, a part of the stable one, or a factor on all steps, out of range."""
     if step is not None and not 0.0 < step < math.inf:
         raise InputError(f"step is {step:g} s", parameter="step", allowed="greater than 0")
     if safety is not None and not 0.0 < safety <= 1.0:
         raise InputError(f"safety is {safety:g}", parameter="safety", allowed="above 0, at most 1")
+    if not 0.0 < shorter <= 1.0:
+        raise InputError(f"shorter is {shorter:g}", parameter="shorter", allowed="above 0, at most 1")
 
 
 def kept_numbers(given: ArrayLike | None, count: int, path: str) -> np.ndarray:
@@ -128,6 +130,7 @@ def simulate(
     method: Method = "explicit",
     step: float | None = None,
     safety: float | None = None,
+    shorter: float = 1.0,
     load_steps: int = LOAD_STEPS,
     tolerance: float = TOLERANCE,
     keep_nodes: ArrayLike | None = None,
@@ -165,6 +168,9 @@ def simulate(
         hardly any viscosity. 1 is the pace of the elastic wave: along equal bars wave fronts then travel without error,
         as long as ``output_step`` is a whole multiple of the travel time of a wave along one bar. Another one keeps its
         instants and shortens the step, and fronts overshoot; a notice gives their size.
+    shorter : float
+        Factor on every step of the explicit method, above 0, at most 1: with 0.5 each is half as long, those that drag
+        shortens as well, and the run takes about twice the steps.
     load_steps : int
         Steps between two evaluations of the loads of the water, at most.
     tolerance : float
@@ -217,13 +223,13 @@ def simulate(
     check_motions(network, motions or {}, start.time, start.time + duration)
     if not 0.0 < tolerance < 1.0:
         raise InputError(f"tolerance is {tolerance:g}", parameter="tolerance", allowed="above 0, below 1")
-    check_step(step, safety)
+    check_step(step, safety, shorter)
     load_steps = whole_number(load_steps, "load_steps", least=1)
     nodes = kept_numbers(keep_nodes, len(network.nodes), "keep_nodes")
     bars = kept_numbers(keep_bars, len(network.bars), "keep_bars")
     run: ExplicitRun | ImplicitRun
     if method == "explicit":
-        run = ExplicitRun(network, motions or {}, flow, start, safety=safety, load_steps=load_steps)
+        run = ExplicitRun(network, motions or {}, flow, start, safety=safety, load_steps=load_steps, shorter=shorter)
     else:
         run = ImplicitRun(network, motions or {}, flow, start, method=method, tolerance=tolerance)
     run.failing = Failing.of(network, failures)

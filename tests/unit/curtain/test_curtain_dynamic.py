@@ -14,6 +14,7 @@ from moyai.flexible.flow import Flow
 from moyai.sea.regular import RegularWave
 from moyai.sea.water import Water
 from moyai.structures.curtain.analyses import dynamic as analysis_dynamic
+from moyai.structures.curtain.dynamic import peak_uncertainty
 from moyai.structures.curtain.dynamic.assembly import build_span
 from moyai.structures.curtain.dynamic.cable import dynamic_cable
 from moyai.structures.curtain.dynamic.checks import run_checks, run_notices
@@ -198,6 +199,23 @@ def test_sensitivity_gives_the_uncertainty_of_the_peak() -> None:
         assert one.half_mesh == pytest.approx(one.peak, rel=0.06)
         assert one.double_viscosity < one.peak
     assert bool(uncertainty.notices("here", 1e-4)) and not uncertainty.notices("here", 0.5)
+
+
+def test_half_the_step_takes_about_twice_the_steps(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Drag of a sudden current shortens the first steps: half of the smallest would take four times the steps."""
+    given = {"water": FLUME, "flow": Flow((0.0, 3.0, 0.0)), "duration": 0.4, "output_step": 0.004}
+    run = run_span(CurtainSpan(**{**BASE, "drag_coefficient": 1.4}), Mesh(6, 3), **given)  # type: ignore[arg-type]
+    assert 0.4 / run.history.step > 1.6 * run.history.steps
+    others: list[DynamicRun] = []
+
+    def kept(*place: object, **more: object) -> DynamicRun:
+        others.append(run_span(*place, **more))  # type: ignore[arg-type]
+        return others[-1]
+
+    monkeypatch.setattr(peak_uncertainty, "run_span", kept)
+    span_uncertainty(run, **given)
+    same = [one for one in others if one.built.mesh == run.built.mesh]
+    assert [one.history.steps / run.history.steps for one in same] == [pytest.approx(2.0, rel=0.2)]
 
 
 def test_sensitivity_tells_of_a_cable_that_the_sum_hides() -> None:

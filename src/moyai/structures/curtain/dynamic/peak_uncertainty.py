@@ -127,7 +127,7 @@ def span_uncertainty(run: DynamicRun, *, progress: Progress = silent, **argument
     KeyboardInterrupt
         When the user stopped one.
     """
-    built, history = run.built, run.history
+    built = run.built
     mesh, sheets = built.mesh, built.network.sheets
     cable = built.network.bars.types[0].viscosity
     assert sheets is not None
@@ -136,25 +136,25 @@ def span_uncertainty(run: DynamicRun, *, progress: Progress = silent, **argument
     same = replace(mesh, cable_viscosity=cable, skirt_damping_time=skirt)
     names = (BOTH, *run.names)
     coarse = replace(same, along=max(4, mesh.along // 2), down=max(2, mesh.down // 2))
-    trials: dict[str, tuple[str, Mesh, float | None]] = {
-        "half_step": ("half the step", mesh, 0.5 * history.step),
-        "half_mesh": ("half the cells", coarse, None),
+    trials: dict[str, tuple[str, Mesh, float]] = {
+        "half_step": ("half the step", mesh, 0.5),
+        "half_mesh": ("half the cells", coarse, 1.0),
         "double_viscosity": (
             "twice the viscosity",
             replace(mesh, cable_viscosity=2.0 * cable, skirt_damping_time=2.0 * skirt),
-            None,
+            1.0,
         ),
     }
     if run.flow.waves is not None and mesh.turning:
-        trials["held_normals"] = ("held normals", replace(same, turning=False), None)
+        trials["held_normals"] = ("held normals", replace(same, turning=False), 1.0)
 
-    def made(trial: tuple[str, Mesh, float | None], heard: Progress) -> DynamicRun:
-        words, other, step = trial
+    def made(trial: tuple[str, Mesh, float], heard: Progress) -> DynamicRun:
+        words, other, shorter = trial
 
         def told(_: str, done: float, total: float) -> None:
             heard(words, done, total)
 
-        found = run_span(built.span, other, **{**arguments, "step": step, "progress": told})  # type: ignore[arg-type]
+        found = run_span(built.span, other, **{**arguments, "shorter": shorter, "progress": told})  # type: ignore[arg-type]
         if found.history.status == "interrupted":
             raise KeyboardInterrupt
         return found

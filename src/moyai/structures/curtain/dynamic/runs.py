@@ -170,6 +170,7 @@ def run_span(
     release: float | None = None,
     from_time: float = 0.0,
     step: float | None = None,
+    shorter: float = 1.0,
     progress: Progress = silent,
 ) -> DynamicRun:
     """Run a span through time.
@@ -187,6 +188,8 @@ def run_span(
         Peaks before this are not counted [s].
     step : float, optional
         Time step [s]; chosen by the program when left out.
+    shorter : float
+        Factor on every step, above 0, at most 1.
 
     Returns
     -------
@@ -198,7 +201,7 @@ def run_span(
     rows = min(MOST_ROWS, max(2, round(duration / output_step)))
     history = simulate(
         built.network, duration=duration, output_step=duration / rows, flow=chosen, start=built.state, step=step,
-        counted_from=from_time, progress=progress,
+        shorter=shorter, counted_from=from_time, progress=progress,
     )  # fmt: skip
     return DynamicRun(built, history, chosen, from_time)
 
