@@ -95,8 +95,11 @@ def test_length_and_force_are_those_of_two_ends_in_space(turned: float) -> None:
         assert float(link.elongation(position)) == pytest.approx(expected, abs=1e-12)
         force, tension = pull_of(at, position)
         assert np.allclose(-tension * link.along(position), force, rtol=1e-10, atol=1e-6)
-        # the joint reports the force on the unit before it, in axes of that unit, which lies along y
-        assert np.allclose(tension * link.direction(position), force[:3], rtol=1e-10, atol=1e-6)
+        # the joint reports the force on the unit before it, which lies along y, in axes turned half as far as the other
+        x, y, up = force[:3]
+        c, s = np.cos(0.5 * turned), np.sin(0.5 * turned)
+        own = [c * x + s * y, c * y - s * x, up]
+        assert np.allclose(tension * link.direction(position), own, rtol=1e-10, atol=1e-6)
 
 
 def test_a_unit_that_pitches_draws_its_ends_in() -> None:

@@ -1,8 +1,8 @@
 """Connectors between units: what they hold, what they give way to, and the loads in them.
 
 The relative motion of a connector is that of the unit after it less that of the unit before it, at its place, in axes
-of the gap: x along the face of the unit before it, y across the gap, z up [eq:units-relative]. The order in which a
-pair is listed does not matter [eq:units-faces]. Held components are constraints; the others carry by springs, dashpots,
+of the gap: x along it, y across it, z up [eq:units-relative]. The order in which a pair is listed does not matter
+[eq:units-faces]. Held components are constraints; the others carry by springs, dashpots,
 curves.
 """
 

@@ -1,8 +1,9 @@
 """Ends and sides of units, and which of them face each other, in whatever order the units are listed.
 
 A unit has four faces in plan: two ends and two sides. Two units meet at the pair of faces that stand nearest and most
-squarely to each other [eq:units-faces]. The axes of what stands there are those of the nearer face: x along it, y
-across the gap from the near unit to the far one, z up; at the end of a row by count they are those of the units.
+squarely to each other [eq:units-faces]. The axes of what stands there halve the angle between both faces
+[eq:units-gap-axes]: y across the gap from the near unit to the far one, x along it, z up; in a straight row they are
+those of the units. Which unit is the near one turns x and y about and nothing else.
 """
 
 from __future__ import annotations
@@ -66,6 +67,11 @@ class UnitFace:
         offset, margin = self.offset(points), _EDGE * (self.high - self.low)
         return np.asarray((offset >= self.low - margin) & (offset <= self.high + margin))
 
+    def is_faced_by(self, other: UnitFace) -> bool:
+        """Whether a part of another face stands in front of it, more than its edge."""
+        ends = self.offset(other.corners())
+        return min(self.high, float(ends.max())) > max(self.low, float(ends.min()))
+
     def corners(self) -> Array:
         """Return both ends (2, 2) [m]."""
         return np.array([self.at(self.low), self.at(self.high)])
@@ -95,34 +101,48 @@ class Meeting:
         return float(np.linalg.norm(self.end - self.start))
 
     @property
-    def same_way(self) -> bool:
-        """Whether the axis of the far unit across it points the way of the near one's."""
-        return float(_own_across(self.near) @ _own_across(self.far)) > 0.0
-
-    @property
     def frame(self) -> Array:
-        """Matrix (3, 3) from row axes to (along the near face, across the gap, up)."""
-        return np.array([[*self.near.along, 0.0], [*self.near.normal, 0.0], [0.0, 0.0, 1.0]])
+        """Matrix (3, 3) from row axes to (along the gap, across it, up) [eq:units-gap-axes]."""
+        x, y = _axes(self.near, self.far)
+        return np.array([[*x, 0.0], [*y, 0.0], [0.0, 0.0, 1.0]])
 
     @property
     def overlap(self) -> tuple[float, float]:
-        """Offsets along the near face between which the far one stands in front of it [m]; empty where none does."""
-        ends = self.near.offset(self.far.corners())
-        return max(self.near.low, float(ends.min())), min(self.near.high, float(ends.max()))
+        """Where along the gap, row axes, both faces stand [m]; empty where they stand aside of each other."""
+        return _overlap(self.near, self.far)
+
+    @property
+    def encloses_water(self) -> bool:
+        """Whether a part of either face stands in front of the other."""
+        return self.near.is_faced_by(self.far) or self.far.is_faced_by(self.near)
 
     def joined_at(self, across: float) -> tuple[Array, Array]:
         """Return the two points (2,) of a connector that stands ``across`` from the centre line of the near unit."""
-        sign = 1.0 if self.near.kind < 3 else -1.0
-        start = self.start + sign * across * self.near.along
-        if self.far.is_end and self.near.is_end:
-            return start, self.end + (across if self.same_way else -across) * _own_across(self.far)
-        return start, self.end + sign * across * self.near.along
+        own = across if self.near.kind < 3 else -across
+        return self.start + own * self.near.along, self.end - own * self.far.along
+
+    def facing_points(self, along: Array) -> tuple[Array, Array]:
+        """Return the points (..., 2) of both faces at places (...) along the gap, as :attr:`overlap` gives them [m]."""
+        x = _axes(self.near, self.far)[0]
+        return _at_place(self.near, x, along), _at_place(self.far, x, along)
 
 
-def _own_across(face: UnitFace) -> Array:
-    """Return the direction x of the unit of a face."""
-    turn = {0: face.along, 1: face.normal, 2: -face.normal, 3: -face.along}
-    return turn[face.kind]
+def _axes(near: UnitFace, far: UnitFace) -> tuple[Array, Array]:
+    """Return the directions (2,) along and across a gap, which halve the angle between its faces."""
+    across = near.normal - far.normal
+    across = across / np.linalg.norm(across)
+    return np.array([across[1], -across[0]]), across
+
+
+def _overlap(near: UnitFace, far: UnitFace) -> tuple[float, float]:
+    places = np.sort(np.stack([near.corners(), far.corners()]) @ _axes(near, far)[0], axis=1)
+    return float(places[:, 0].max()), float(places[:, 1].min())
+
+
+def _at_place(face: UnitFace, direction: Array, place: Array) -> Array:
+    """Return the points (..., 2) of a face at places (...) along a direction [m], its nearest corner beyond it."""
+    offset = np.clip((place - face.middle @ direction) / float(face.along @ direction), face.low, face.high)
+    return np.asarray(face.middle + offset[..., None] * face.along)
 
 
 def faces_of(place: Placement, unit: int, length: float, bounds: tuple[float, float]) -> tuple[UnitFace, ...]:
@@ -150,7 +170,10 @@ def faces_of(place: Placement, unit: int, length: float, bounds: tuple[float, fl
 
 
 def meeting(places: Sequence[Placement], pair: tuple[int, int], length: float, bounds: tuple[float, float]) -> Meeting:
-    """Return where two units meet; the order of the pair does not matter.
+    """Return where two units meet; the order of the pair does not matter, nor which end of a unit is its first.
+
+    Between two ends or two sides the near face is that of the lower number, the first unit's where they are alike; an
+    end is nearer than a side.
 
     Parameters
     ----------
@@ -162,11 +185,13 @@ def meeting(places: Sequence[Placement], pair: tuple[int, int], length: float, b
     first, second = (faces_of(places[unit], unit, length, bounds) for unit in sorted(pair))
     beam = bounds[1] - bounds[0]
     best: tuple[float, Meeting] | None = None
-    for one, other in product(first, second):
+    # of pairs that are equal: ends first, then ends of the unit that is listed first
+    for one, other in product(*(sorted(faces, key=lambda face: not face.is_end) for faces in (first, second))):
         square = float(one.normal @ other.normal)
         if square > -_SQUARE:
             continue
-        found = _met(*((one, other) if one.kind <= other.kind else (other, one)))
+        ordered = (not one.is_end, one.kind) <= (not other.is_end, other.kind)
+        found = _met(*((one, other) if ordered else (other, one)))
         behind = max(-float(found.near.before(found.end)), -float(found.far.before(found.start)), 0.0)
         sides = (not one.is_end) + (not other.is_end)
         cost = found.distance + 4.0 * behind + beam * (1.0 + square + _SIDE * sides)
@@ -180,17 +205,11 @@ def _met(near: UnitFace, far: UnitFace) -> Meeting:
     """Return where two faces meet: at the axes of ends, across from an end on a side, in the middle of two sides."""
     if near.is_end and far.is_end:
         return Meeting(near, far, near.middle, far.middle)
-    if far.is_end:
-        return Meeting(near, far, near.at(_inside(near, float(near.offset(far.middle)))), far.middle)
     if near.is_end:
-        return Meeting(near, far, near.middle, far.at(_inside(far, float(far.offset(near.middle)))))
-    ends = np.clip(near.offset(far.corners()), near.low, near.high)
-    start = near.at(0.5 * float(ends.sum()))
-    return Meeting(near, far, start, far.at(_inside(far, float(far.offset(start)))))
-
-
-def _inside(face: UnitFace, offset: float) -> float:
-    return min(max(offset, face.low), face.high)
+        offset = min(max(float(far.offset(near.middle)), far.low), far.high)
+        return Meeting(near, far, near.middle, far.at(offset))
+    x, middle = _axes(near, far)[0], np.array(0.5 * sum(_overlap(near, far)))
+    return Meeting(near, far, _at_place(near, x, middle), _at_place(far, x, middle))
 
 
 def gaps_between(places: Sequence[Placement], length: float, bounds: tuple[float, float]) -> tuple[Meeting, ...]:
@@ -204,8 +223,7 @@ def gaps_between(places: Sequence[Placement], length: float, bounds: tuple[float
     found = []
     for pair in combinations(range(len(places)), 2):
         one = meeting(places, pair, length, bounds)
-        low, high = one.overlap
-        if one.distance < length and high > low and between(places, one, length, bounds) is None:
+        if one.distance < length and one.encloses_water and between(places, one, length, bounds) is None:
             found.append(one)
     return tuple(found)
 

@@ -74,7 +74,8 @@ def gaps_of(at: RowAtLevel) -> tuple[Gap, ...]:
         if not clearance.size or not clearance.min() > 0.0:
             continue
         bend = 0.0 if hold_together(at.joints, met.pair) else 1.0
-        name, width = f"gap {met.pair[0] + 1}-{met.pair[1] + 1}", float(clearance.min())
+        first, second = sorted(met.pair)
+        name, width = f"gap {first + 1}-{second + 1}", float(clearance.min())
         out.append(Gap(name, met.pair, width, along, arms, width / clearance, bend))
     return tuple(out)
 

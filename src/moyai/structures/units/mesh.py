@@ -324,6 +324,8 @@ def _gap_lids(section: Section, length: float, placements: tuple[Placement, ...]
     bounds = section.waterlines[0][0], section.waterlines[-1][1]
     lids = []
     for met in gaps_between(placements, length, bounds):
+        if not met.overlap[1] > met.overlap[0]:
+            continue  # a corner before a face that turns away from it
         near, far = _edges(met, size)
         width = float(np.linalg.norm(far - near, axis=1).max())
         if width > _OPEN * length:
@@ -343,15 +345,13 @@ def _gap_lids(section: Section, length: float, placements: tuple[Placement, ...]
 def _edges(met: Meeting, size: float) -> tuple[Array, Array]:
     """Return the points (n, 3) of a lid on both faces: from corner to corner of ends, across from each other else."""
     near, far = met.near, met.far
-    low, high = (near.low, near.high) if near.is_end and far.is_end else met.overlap
-    offsets = low + cuts(high - low, size, even=True)
-    start = near.middle + offsets[:, None] * near.along
     if near.is_end and far.is_end:
-        end = far.middle - offsets[:, None] * far.along
+        offsets = cuts(near.high - near.low, size, even=True)[:, None]
+        start, end = near.at(near.low) + offsets * near.along, far.at(far.high) - offsets * far.along
     else:
-        reach = far.before(start) / -float(far.normal @ near.normal)
-        end = start + reach[:, None] * near.normal
-    level = np.zeros((len(offsets), 1))
+        low, high = met.overlap
+        start, end = met.facing_points(low + cuts(high - low, size, even=True))
+    level = np.zeros((len(start), 1))
     return np.hstack([start, level]), np.hstack([end, level])
 
 
