@@ -235,3 +235,14 @@ def test_lines_that_snap_have_the_change_of_shorter_bars_in_their_band():
     limit = Criterion("factor", "line_tension", 1.1 * bands[0].judged[1], "at most", "case", unit="N")
     outcomes = [judge(line_headlines([peak]), (limit,), computed=True).outcome for peak in (plain, finer)]
     assert outcomes == ["holds", "does not hold"]
+
+
+def test_a_tension_of_a_regular_wave_has_the_change_of_shorter_bars_too():
+    """Where the variations are asked for: there are no realisations, the number itself is led on."""
+    nothing = np.zeros(0)
+    wave = replace(GOVERNS, scatter=nothing, vertical_scatter=nothing, horizontal_scatter=nothing, bound=nothing)
+    found = replace(wave, finer=0.05)
+    tension = headline(line_headlines([found]), "line_tension")
+    pull = headline(anchor_headlines({}, [], [found]), "anchor_horizontal_tension")
+    assert tension.band.judged[1] == pytest.approx(1.1 * 400e3) and pull.band.judged[1] == pytest.approx(1.1 * 390e3)
+    assert headline(line_headlines([wave]), "line_tension").band is None

@@ -76,7 +76,7 @@ class LinePeak:
 
     def band(self, value: float, scatter: Array, bound: Array | None = None, mean: float = 0.0) -> Band | None:
         """Return the band of a number of this line: of realisations, in the frequency domain of storms alike."""
-        return self._on_finer(seeds(scatter, bound), value) if scatter.size else storms(value, mean, self.factor)
+        return self._on_finer(seeds(scatter, bound) if scatter.size else storms(value, mean, self.factor), value)
 
     def _on_finer(self, band: Band | None, value: float) -> Band | None:
         """Return a band that reaches as far as shorter bars move the tension, either way it goes."""

@@ -205,7 +205,7 @@ def change_on_finer_lines(
         return math.nan
     lines = given.settings.lines
     # the internal damping is one of the material: more bars keep it
-    finer = lines.changed(bars=2 * lines.bars, damping_ratio=2.0 * lines.damping_ratio)
+    finer = lines.changed(bars=2 * lines.bars, damping_ratio=2.0 * lines.damping_ratio, sensitivity=False)
     fine = replace(given, settings=given.settings.changed(lines=finer))
     events = [[(float(item.run.attributes["event"]), 1.0)] for item in found]
     searches = [_RerunSearch(one, event) for one, event in zip(members, events, strict=True)]

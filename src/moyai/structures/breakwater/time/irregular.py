@@ -266,7 +266,7 @@ def _lines_in_motion(
         moved[line] = True
         try:
             change = change_on_finer_lines(given, members, found, int(line), progress)
-        except ConvergenceError as error:
+        except (InputError, ConvergenceError) as error:
             finer = f"{unit.name}, {shared.sea.name}: with twice the bars: {error.fault.message}; not in the band"
             refined.append(Notice("lines-not-refined", finer, remedy=error.fault.remedy))
             change = math.nan
